@@ -87,8 +87,8 @@ playground: $(STAMP) $(NODE_MODULES) ## the playground in the browser, a static 
 site: docs playground ## the documentation and the playground, one static folder: build/site
 	cp -R build/docs/. build/site/
 
-play: playground ## the playground on this machine alone, at an address that is printed
-	$(BIN)/python -m playground.serve build/site
+play: $(STAMP) $(NODE_MODULES) ## the playground on this machine alone, at an address that is printed
+	$(BIN)/python -m playground.site --serve
 
 $(NODE_MODULES): playground/package-lock.json
 	@{ command -v node && command -v npm; } >/dev/null || \

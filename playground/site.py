@@ -1,12 +1,15 @@
 """The playground as a static folder, ``build/site/play``, made anew where the tree is another.
 
-``python -m playground.site``
+``python -m playground.site [--serve]``
 """
 
 import argparse
 import hashlib
 import subprocess
 import sys
+from contextlib import suppress
+from functools import partial
+from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
 from pathlib import Path
 
 ROOT = Path(__file__).parents[1]
@@ -45,6 +48,32 @@ def built() -> Path:
     return SITE
 
 
+class Handler(SimpleHTTPRequestHandler):
+    """Files, without a line for each on the terminal."""
+
+    def log_message(self, format: str, *args: object) -> None:
+        """Say nothing."""
+
+
+def server(folder: Path, port: int = 0) -> ThreadingHTTPServer:
+    """A server of a folder at a port, or a free one."""
+    return ThreadingHTTPServer(("127.0.0.1", port), partial(Handler, directory=str(folder)))
+
+
+def serve(port: int = 8000) -> None:
+    """Serve it, beside the documentation where that is there, until Ctrl-C."""
+    folder = built().parent
+    try:
+        serving = server(folder, port)
+    except OSError:
+        serving = server(folder)
+    with serving:
+        print(f"http://127.0.0.1:{serving.server_port}/play/  (Ctrl-C ends)", flush=True)
+        with suppress(KeyboardInterrupt):
+            serving.serve_forever()
+
+
 if __name__ == "__main__":
-    argparse.ArgumentParser("python -m playground.site", description=__doc__).parse_args()
-    built()
+    asked = argparse.ArgumentParser("python -m playground.site", description=__doc__)
+    asked.add_argument("--serve", action="store_true", help="on 127.0.0.1, for this machine alone")
+    (serve if asked.parse_args().serve else built)()

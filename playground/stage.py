@@ -15,6 +15,7 @@ import sys
 import tomllib
 from collections.abc import Iterator
 from concurrent.futures import ProcessPoolExecutor
+from dataclasses import replace
 from itertools import repeat
 from pathlib import Path
 from typing import Any
@@ -28,7 +29,7 @@ from derive.command.showing import READY, ready_made
 from derive.language.limits import TABLES
 from derive.problem.motion_tables import of_points
 from derive.problem.toml import TOP
-from derive.record.record import AMENDED
+from derive.record.record import AMENDED, Derivation
 from derive.schema.body_kinds import SOLIDS, Point
 from derive.schema.force_kinds import INPUTS, Damping
 from derive.schema.kind import (
@@ -43,12 +44,13 @@ from derive.schema.kind import (
 from derive.schema.motion_kinds import Event, Signal
 from derive.schema.potential_kinds import kinds
 from derive.schema.table import Table
+from derive.views.figure.drawing import Scene, svg
+from derive.views.figure.scene import scene
 from derive.views.language import LANGUAGES as SPOKEN
 from derive.views.language import language
 from derive.views.outline import title
 from derive.views.page.motion_page import SCRIPTS
 from derive.views.paper.findings import amendments
-from playground.shelves import picture, shelves
 
 HERE = Path(__file__).parent
 LIBRARIES, LATER = ("jinja2", "markupsafe"), ("mpmath", "sympy")
@@ -213,6 +215,57 @@ def stored_of(name: str, out: Path, folder: Path) -> None:
     (out / f"{name}.code.json.gz").write_bytes(gzip.compress(code, 9, mtime=0))
 
 
+THING = ("name", "en", "fr", "like", "group", "group_fr")
+"""What is said of a thing, the last three of few."""
+MARGIN = 1.0
+"""Around a picture, in millimetres."""
+UNDRAWN = ("gravity", "force")
+"""What a small picture has not, beside the letters."""
+
+
+def shelves() -> list[dict[str, Any]]:
+    """Those of the file, in order: titles in both languages, things by the names of their problems
+    and their own; ``like``: the problem whose picture it has; ``group``, where it is called
+    otherwise than in the problem, and in French otherwise still."""
+    shelf_of = tomllib.loads((HERE / "gallery.toml").read_text(encoding="utf-8"))["shelf"]
+    return [
+        x | {"things": [dict(zip(THING, y, strict=False)) for y in x["things"]]} for x in shelf_of
+    ]
+
+
+def picture(record: Derivation) -> str:
+    """The figure of a record's body as a small SVG, without letters and for the eye alone; empty
+    where it has none."""
+    found = scene(record)
+    if found is None:
+        return ""
+    drawn = svg(_cropped(found))
+    drawn = re.sub(r"<title>.*?</title>\n|<g [^>]*>\n</g>\n", "", drawn)
+    drawn = re.sub(
+        r' width="[\d.]*mm"| height="[\d.]*mm"| role="img"| style="max-[^"]*"', "", drawn
+    )
+    return drawn.replace("<svg ", '<svg aria-hidden="true" ').replace("\n", "")
+
+
+def _cropped(found: Scene) -> Scene:
+    """A scene without letters and what acts, as large as the rest."""
+    strokes = [s for s in found.strokes if s.role not in UNDRAWN]
+    reach = [p for s in strokes for p in s.points]
+    reach += [(d.at[0] + s * d.radius, d.at[1] + s * d.radius) for d in found.dots for s in (1, -1)]
+    xs, ys = zip(*reach, strict=True)
+    left, low = min(xs) - MARGIN, min(ys) - MARGIN
+    return replace(
+        found,
+        width=max(xs) - left + MARGIN,
+        height=max(ys) - low + MARGIN,
+        strokes=tuple(
+            replace(s, points=tuple((x - left, y - low) for x, y in s.points)) for s in strokes
+        ),
+        dots=tuple(replace(d, at=(d.at[0] - left, d.at[1] - low)) for d in found.dots),
+        labels=(),
+    )
+
+
 def pictures() -> dict[str, str]:
     """Of the things that have one."""
     things = [x for shelf in shelves() for x in shelf["things"]]
@@ -254,8 +307,7 @@ def main(out: Path) -> None:
         library(name, first)
     for name in LATER:
         library(name, later / name)
-    for module in ("play", "places"):
-        shutil.copy(HERE / "python" / f"{module}.py", first)
+    shutil.copy(HERE / "python" / "play.py", first)
     (first / "amendments.pickle").write_bytes(pickle.dumps(amendments(AMENDED)))
     told = {
         "problems": problems(),

@@ -27,6 +27,7 @@ from .claims import (
     equilibrium_claims,
     family_claims,
     integral_claims,
+    position_claims,
     reduction_claims,
     symmetry_count,
     trim_claims,
@@ -412,6 +413,7 @@ JUDGES: dict[str, Judge] = {
     **{kind: _of_reduced(judge) for kind, judge in integral_claims.JUDGES.items()},
     **{kind: _of_reduced(judge) for kind, judge in equilibrium_claims.JUDGES.items()},
     **{kind: _of_reduced(judge) for kind, judge in family_claims.JUDGES.items()},
+    **{kind: _of_reduced(judge) for kind, judge in position_claims.JUDGES.items()},
     **{kind: _of_reduced(judge) for kind, judge in enclosure.JUDGES.items()},
 }
 """How each kind of claim is judged."""

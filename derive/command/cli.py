@@ -402,6 +402,22 @@ def heard(args: argparse.Namespace) -> int:
     return int(args.run(args))
 
 
+ENDING = (Refused, StoppedError, ModuleNotFoundError, MemoryError, RecursionError)
+"""What ends a command with one line."""
+
+
+def refusal(error: BaseException) -> str:
+    """The line; it is raised again where it is a module that the package does not bring."""
+    if isinstance(error, ModuleNotFoundError):
+        if error.name not in BROUGHT:
+            raise error
+        return f"this needs {BROUGHT[error.name]}, which is not here"
+    if isinstance(error, (MemoryError, RecursionError)):
+        what = "out of memory" if isinstance(error, MemoryError) else "nested too deeply"
+        return f"{what}: the input is too large for this machine"
+    return one_line(error)
+
+
 def main(argv: Sequence[str] | None = None) -> int:
     """Run a command: 0, 1 when a check failed, 2 for bad input, 130 after Ctrl-C."""
     from .arguments import parser
@@ -413,17 +429,8 @@ def main(argv: Sequence[str] | None = None) -> int:
             status = run(parser(COMMANDS, ABOUT), argv)
             sys.stdout.flush()
         return status
-    except (Refused, StoppedError) as error:
-        print(f"derive: {one_line(error)}", file=sys.stderr)
-        return 2
-    except ModuleNotFoundError as error:
-        if error.name not in BROUGHT:
-            raise
-        print(f"derive: this needs {BROUGHT[error.name]}, which is not here", file=sys.stderr)
-        return 2
-    except (MemoryError, RecursionError) as error:
-        what = "out of memory" if isinstance(error, MemoryError) else "nested too deeply"
-        print(f"derive: {what}: the input is too large for this machine", file=sys.stderr)
+    except ENDING as error:
+        print(f"derive: {refusal(error)}", file=sys.stderr)
         return 2
     except BrokenPipeError:  # who reads has seen enough
         _discard_stdout()

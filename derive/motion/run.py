@@ -204,7 +204,7 @@ def _to_csv(run: Run) -> bytes:
 def _from_csv(data: bytes) -> Run:
     first, second, *rows = (x.rstrip("\r") for x in data.decode().rstrip("\n").split("\n"))
     head = commented(first, second)
-    return _run(head, [[float(x) for x in row.split(",")] for row in rows])
+    return _run(head, [[float(x or "nan") for x in row.split(",")] for row in rows])
 
 
 def commented(first: str, second: str) -> str:

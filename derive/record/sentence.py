@@ -146,7 +146,7 @@ KINDS = {
         "at origin letter positive orbit form stable stable_always on_the_leaf on_the_leaf_always "
         "indefinite unstable unstable_large unstable_always imaginary"
     ),
-    "position": "along against lowest highest",
+    "position": "along along_of against against_of lowest lowest_near highest highest_near",
     "enclosure": "within signs stable unstable open eigenvalues",
     "trim": (
         "rest steady corner unique isolated isolated_with_turns isolated_along stable unstable "

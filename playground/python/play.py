@@ -14,7 +14,6 @@ import re
 import shlex
 import shutil
 import sys
-import tomllib
 import zipfile
 from collections.abc import Callable, Iterator
 from contextlib import chdir, contextmanager, redirect_stderr, redirect_stdout
@@ -22,11 +21,8 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from places import line_of
-
-from derive.command.cli import main
+from derive.command.cli import ENDING, main, refusal
 from derive.command.showing import derive
-from derive.command.writing import one_line
 from derive.language.limits import Refused
 from derive.problem.motion_tables import faults
 from derive.record.record import AMENDED, Derivation
@@ -38,7 +34,7 @@ STORED = Path(__file__).with_name("amendments.pickle")
 """Where the problem file is written; what was found of the print when the site was built."""
 LATER = ("mpmath", "sympy")
 """Libraries that are loaded when something asks for them."""
-NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]{0,60}")
+NAME = re.compile(r'^\s*name\s*=\s*"([A-Za-z]\w{0,60})"', re.ASCII | re.MULTILINE)
 SECONDS, TOLERANCE = 20.0, 1e-9
 """Of a motion."""
 
@@ -61,15 +57,8 @@ class Play:
         try:
             with redirect_stdout(out), redirect_stderr(err):
                 yield
-        except Refused as error:
-            self.fault(f"derive: {one_line(error)}")
-        except (MemoryError, RecursionError) as error:
-            what = "out of memory" if isinstance(error, MemoryError) else "nested too deeply"
-            self.fault(f"derive: {what}: the input is too large for this machine")
-        except ImportError as error:
-            if (error.name or "").partition(".")[0] == "derive":
-                raise  # the worker loads it, and asks again
-            self.fault("derive: this needs NumPy, which is not here")
+        except ENDING as error:  # of a module of the package, the worker loads it, and asks again
+            self.fault(f"derive: {refusal(error)}")
         for line in err.getvalue().splitlines():
             self.tell("warning", line)
 
@@ -293,13 +282,82 @@ def moving(page: Any, made: Any) -> list[float]:
     return x
 
 
+# at which line of a problem file is what a message tells
+
+LINE = re.compile(r"\(at line (\d+)")
+TABLE = re.compile(r"(?:derive: )?\S+\.toml: (?:in )?\[*(\w+)\]* (\d+|'[^']*')")
+SECTION = re.compile(r"(?:derive: )?\S+\.toml: (\w+), ")
+LONG = 40
+"""Of a longer name messages show so many letters."""
+KEYS = (
+    re.compile(r"(?:unknown )?key '([^']{1,80})'"),
+    re.compile(r"(?:\d+|'[^']*'), (\w+):"),
+    re.compile(r"\.toml: \w+, (\w+)\b"),
+    re.compile(r"\.toml: \[?(\w+)\]?[,:]"),
+)
+
+
+def line_of(message: str, text: str) -> int:
+    """The line, from 1; 1 where the message is of the whole file."""
+    if found := LINE.search(message):
+        return int(found[1])
+    lines = text.splitlines()
+    first, last = span(message, lines)
+    for pattern in KEYS:
+        if found := pattern.search(message):
+            key = named(found[1])
+            alone = rf"\s*(?:[\"']?{key}[\"']?\s*=|\[+[\w.]*\b{key}\]+)"
+            wanted = re.compile(rf"{alone}|.*[{{,]\s*{key}\s*=")
+            for k in range(first, last):
+                if wanted.match(lines[k]):
+                    return k + 1
+    return min(first, max(len(lines) - 1, 0)) + 1
+
+
+def span(message: str, lines: list[str]) -> tuple[int, int]:
+    """The lines, from 0, of the table that a message names; all where it names none."""
+    found = TABLE.search(message)
+    if not found:
+        return alone(message, lines)
+    word, which = found.groups()
+    if which.isdecimal():
+        header = re.compile(rf"\s*\[\[\s*(?:\w+\.)?{re.escape(word)}s?\s*\]\]")
+        at = [k for k, line in enumerate(lines) if header.match(line)]
+        number = int(which) - 1
+        if not 0 <= number < len(at):
+            return 0, len(lines)
+        return at[number], end(at[number], lines)
+    name = named(which.strip("'"))
+    entry = re.compile(rf"\s*[\"']?{name}[\"']?\s*=|\s*\[\w+\.{name}\]")
+    start = next((k for k, line in enumerate(lines) if entry.match(line)), 0)
+    return start, len(lines)
+
+
+def alone(message: str, lines: list[str]) -> tuple[int, int]:
+    """The same of a table that stands once; all where there is none."""
+    found = SECTION.search(message)
+    if found is None:
+        return 0, len(lines)
+    header = re.compile(rf"\s*\[\s*{re.escape(found[1])}\s*\]")
+    start = next((k for k, line in enumerate(lines) if header.match(line)), None)
+    return (0, len(lines)) if start is None else (start, end(start, lines))
+
+
+def end(start: int, lines: list[str]) -> int:
+    """Where a table ends that begins at a line."""
+    ends = (k for k in range(start + 1, len(lines)) if lines[k].lstrip().startswith("["))
+    return next(ends, len(lines))
+
+
+def named(name: str) -> str:
+    """What matches a name of which a message shows the beginning."""
+    return re.escape(name) + (r"\w*" if len(name) == LONG else "")
+
+
 def name_of(text: str) -> str:
-    """The name of a problem, for its file."""
-    try:
-        name = tomllib.loads(text).get("name")
-    except (tomllib.TOMLDecodeError, RecursionError, ValueError):
-        return "problem"
-    return name if isinstance(name, str) and NAME.fullmatch(name) else "problem"
+    """The name of a problem, for its file, as the page tells it."""
+    found = NAME.search(text)
+    return found[1] if found else "problem"
 
 
 def emission(words: str) -> tuple[tuple[str, ...], Any]:

@@ -1,5 +1,4 @@
 /* What may stand at a place of a problem file, from the tables of the package. */
-import { velocity } from "./state.js";
 
 const KIND = /^\s*(?:kind|solid)\s*=\s*"(\w+)"/m, NEXT = /^\s*\[/m;
 
@@ -66,3 +65,14 @@ export const completions = (schema) => (context) => {
   const options = keys(schema, here(), doc.toString()).map((label, k) => ({ label, type: "property", apply: again, sortText: order(k) }));
   return { from: context.pos - word[1].length, options };
 };
+
+/* how the numbers of a velocity are called, by the group of a text; where its Lagrangian is stated, one letter for all */
+export function velocity(schema, text) {
+  const name = text.match(/^\s*group\s*=\s*"([^"]*)"/m)?.[1] ?? text.match(/^\s*of\s*=\s*"([^"]*)"/m)?.[1] ?? "";
+  const factors = name.split(/\s*[x×]\s*(?=[A-Z])/).map((x) => schema.groups[x.replaceAll(" ", "")]);
+  if (factors.some((x) => !x)) return [];
+  const stated = /^\s*\[\s*(lagrangian|inertia)\s*\]/m.test(text), d = factors.reduce((sum, x) => sum + x.d, 0);
+  const shift = factors.length === 1 && !stated ? factors[0].w : 0;
+  const counted = (letter, count) => Array.from({ length: count }, (_, k) => `${letter}_${k + 1}`);
+  return [...counted("zeta", d - shift), ...counted("w", shift)];
+}

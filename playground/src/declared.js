@@ -21,7 +21,7 @@ export function used(text) {
   return found;
 }
 
-const place = (text) => tables(text).findIndex((x) => x.name === "parameters");
+const place = (text, name = "parameters") => tables(text).findIndex((x) => x.name === name);
 export const parameters = (text) => tables(text)[place(text)]?.entries ?? [];
 
 export function withoutParameter(text, name) {
@@ -63,4 +63,26 @@ export function withDefault(value, number) {
   if (!DEFAULT.test(value)) return number ? `{ default = ${number}${rest && ", "}${rest} }` : value;
   if (number) return value.replace(DEFAULT, (_, key) => key + number);
   return value.replace(/default\s*=\s*[^,}\s]+\s*,?\s*/, "").replace(/,\s*\}$/, " }").replace(/^\{\s*\}$/, "{}");
+}
+
+const number = (v) => String(Number(v.toPrecision(12)));
+
+/* numbers into a text: the defaults of [parameters] and what [initial] says; { text, left }: left are the names of those for which
+ * it has no place */
+export function written(text, { initial, parameters, exp }) {
+  const left = [], start = Object.entries(initial);
+  for (const [name, v] of Object.entries(parameters)) {
+    const k = place(text), said = raw(text, tables(text)[k], name);
+    if (said === undefined) left.push(name);
+    else text = put(text, k, name, withDefault(said, number(v)));
+  }
+  if (!exp.length && !start.length) return { text, left };
+  if (place(text, "initial") < 0) text = withTable(text, "[initial]");
+  const k = place(text, "initial"), own = () => tables(text)[k];
+  if (exp.length && own().entries.some(({ key }) => /^(exp|[AT](_?\d+)+)$/.test(key))) left.push("θ");
+  else if (exp.length) text = put(text, k, "exp", `[${exp.map(number).join(", ")}]`);
+  for (const [name, v] of start) {
+    if (v || entry(own(), name)) text = put(text, k, name, number(v));
+  }
+  return { text, left };
 }

@@ -12,6 +12,9 @@ export function make(tag, given = {}, ...inside) {
 
 export const the = (id) => document.getElementById(id);
 
+/* where a key leads in a row of so many things; undefined where it does not */
+export const along = (key, at, count) => ({ ArrowRight: at + 1, ArrowLeft: at - 1, Home: 0, End: count - 1 })[key];
+
 /* what the command line refuses, without its name and that of the problem */
 export const plainly = (message) => message.replace(/^derive: (\w+: )?/, "");
 

@@ -2,6 +2,8 @@
 import { copies, moved } from "./copies.js";
 import { copy, make } from "./dom.js";
 
+/* half the height, in px, that a step has in walk.css until it is laid out */
+const LOW = 72;
 const MATHML = "http://www.w3.org/1998/Math/MathML";
 
 export class Equations {
@@ -111,18 +113,17 @@ export class Equations {
     return null;
   }
 
-  /* Go to where at() was, by default the beginning; a second time when what came into sight has its height. */
+  /* Go to where at() was, by default the beginning. The steps about it are laid out first, as far as two screens: their heights,
+   * which come some frames later else, would move it. */
   back({ id, by }) {
     if (!id && by === undefined) return this.#scrolls().scrollTo(0, 0);
     const place = id ? this.#root.getElementById(id) : this.#root.querySelector("header");
     if (!place) return;
-    const here = () => {
-      this.#scrolls().scrollBy(0, this.#below(place) - by);
-      this.#taken = id ? { place, by: this.#below(place) } : null;
-    };
+    const steps = [...this.#root.querySelectorAll("article")], k = steps.indexOf(place), about = Math.ceil(innerHeight / LOW);
+    for (const x of steps.slice(Math.max(0, k - about), k + about)) x.classList.add("near");
     place.scrollIntoView({ block: "start", behavior: "instant" });
-    here();
-    requestAnimationFrame(() => requestAnimationFrame(here));
+    this.#scrolls().scrollBy(0, this.#below(place) - by);
+    this.#taken = id ? { place, by: this.#below(place) } : null;
   }
 
   /* go to a step, and mark it; is there such a one? */

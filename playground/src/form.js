@@ -1,10 +1,10 @@
 /* A form that writes a problem file: group, body, forces, start, parameters. It edits the text of these tables, and leaves
  * all others and comments as they are. */
+import { velocity } from "./completion.js";
 import { about, declared, parameters, withDefault, withoutParameter } from "./declared.js";
 import { make } from "./dom.js";
 import { BODY, OTHERS, bodies, bodyOf, fitted, force, withBody } from "./made.js";
 import { entry, lineAt, put, raw, tables, uncommented, withTable, without } from "./source.js";
-import { velocity } from "./state.js";
 import { listed, numeral, shown, toml } from "./values.js";
 
 const FORCES = ["potential", "input", "damping"], MOST = 16;

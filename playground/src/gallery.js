@@ -1,8 +1,17 @@
-/* The gallery: every ready-made problem as a thing, shelf by shelf, with a small picture. */
-import { make } from "./dom.js";
+/* The gallery: every ready-made problem as a thing, shelf by shelf, with a small picture; and the list of them. */
+import { along, make } from "./dom.js";
 import { placed } from "./link.js";
-import { shelved } from "./menu.js";
 import { still } from "./see.js";
+
+/* problems by their shelves, in order */
+const shelved = (problems, lang) => [...Map.groupBy?.(problems, (x) => x[`shelf_${lang}`]) ?? [["–", problems]]];
+
+/* the list of the ready-made problems, and of one's own */
+export function menu(select, problems, words, lang) {
+  select.replaceChildren(make("option", { value: "" }, words.own),
+    ...shelved(problems, lang).map(([shelf, list]) => make("optgroup", { label: shelf },
+      ...list.map((x) => make("option", { value: x.name }, `${x[lang]} (${x.name})`)))));
+}
 
 export class Gallery {
   /* dialog: where it opens; problems: the ready-made ones; chosen(): the name of the one that is there; choose(text) */
@@ -48,13 +57,13 @@ export class Gallery {
     ...(still(text) ? [make("small", {}, words.wide)] : []));
   }
 
-  /* the arrows go from thing to thing, up and down to the nearest of the next row */
+  /* the arrows go from thing to thing, up and down to the nearest of the next row; Home and End to the first and the last */
   #step(e) {
     const things = [...this.place.querySelectorAll("a")], at = things.indexOf(document.activeElement);
-    if (at < 0 || !e.key.startsWith("Arrow")) return;
+    if (at < 0 || !/^(Arrow.*|Home|End)$/.test(e.key)) return;
     e.preventDefault();
-    const by = { ArrowLeft: -1, ArrowRight: 1 }[e.key];
-    if (by) return things[at + by]?.focus();
+    const to = along(e.key, at, things.length);
+    if (to !== undefined) return things[to]?.focus();
     const down = e.key === "ArrowDown", boxes = things.map((x) => x.getBoundingClientRect()), here = boxes[at];
     const rows = boxes.map((x) => (down ? x.top - here.top : here.top - x.top)), next = Math.min(...rows.filter((x) => x > 1));
     const aside = (k) => Math.abs(boxes[k].left - here.left);

@@ -5,12 +5,11 @@ import { editor } from "./editor.js";
 import { Engine } from "./engine.js";
 import { Equations, power } from "./equations.js";
 import { Form } from "./form.js";
-import { Gallery } from "./gallery.js";
+import { Gallery, menu } from "./gallery.js";
 import { Places } from "./history.js";
 import { Found } from "./found.js";
 import { asked, spoken, tabbed } from "./link.js";
 import { meshed, stated } from "./made.js";
-import { menu } from "./menu.js";
 import { opens } from "./opened.js";
 import { Motion, still } from "./see.js";
 import { Projector } from "./projector.js";
@@ -441,7 +440,9 @@ addEventListener("keydown", (e) => {
   else if (e.key === "F8") {
     e.preventDefault();
     the("wide").click();
-  } else if (e.key === "p" && !e.target.closest("input, select, textarea, [contenteditable], dialog")) project();
+  } else if (e.target.closest("input, select, textarea, [contenteditable], dialog")) return;
+  else if (e.key === "p") project();
+  else if (e.key === "Escape") the(`tab-${tabs.now}`).focus(); // from among the stops of a walk
 });
 addEventListener("popstate", () => visit());
 

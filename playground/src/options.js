@@ -7,15 +7,14 @@ export class Options {
     Object.assign(this, { data, changed });
     this.languages = new Set(["c", "python"]);
     this.single = {};
-    this.repeated = new Set();
-    this.added = new Set();
+    this.flags = new Set(); // those that stand alone, and each value of those that may be repeated
   }
 
   /* as words of the command line */
   get command() {
     return [
       ...[...this.languages].map((x) => `--lang ${x}`), ...Object.entries(this.single).map(([x, y]) => `--${x} ${y}`),
-      ...[...this.repeated].map((x) => `--${x}`), ...[...this.added].map((x) => `--${x}`),
+      ...[...this.flags].map((x) => `--${x}`),
     ].join(" ");
   }
 
@@ -28,8 +27,8 @@ export class Options {
     const told = (name, ...inside) => make("div", { class: "option" }, ...inside, make("p", { id: `about-${name}` }, about(name)), this.#why(name));
     const one = ([name, values]) => told(name, make("label", {}, `${name} `, this.#select(name, values, (x) => called(name, x), words.default)));
     const several = ([name, values]) => told(name, make("fieldset", { "aria-describedby": `about-${name} why-${name}` },
-      make("legend", {}, name), ...values.map((x) => this.#box(this.repeated, `${name} ${x}`, `${name} ${x}`, called(name, x), name))));
-    const added = (name) => told(name, this.#box(this.added, name, name, name, name));
+      make("legend", {}, name), ...values.map((x) => this.#box(this.flags, `${name} ${x}`, `${name} ${x}`, called(name, x), name))));
+    const added = (name) => told(name, this.#box(this.flags, name, name, name, name));
     return make("div", { class: "choices" },
       make("fieldset", {}, make("legend", {}, words.languages), ...data.languages.map((x) => this.#box(this.languages, x, `lang ${x}`, x, "lang")), this.#why("lang")),
       make("details", {}, make("summary", {}, words.options), make("div", { class: "options" },

@@ -4,17 +4,6 @@ import { dark, make } from "./dom.js";
 const BEFORE = 2, LEAST = 28, LARGEST = 56;
 const BY = { ArrowRight: 1, PageDown: 1, ArrowLeft: -1, PageUp: -1, Home: -Infinity, End: Infinity };
 
-const STYLE = `
-:host { font: inherit; }
-.equations { padding: 0; grid-template-columns: fit-content(36%) minmax(0, 1fr); }
-.number { display: none; }
-.was { color: var(--soft); }
-.why { margin: .8em 0; padding-left: .7em; border-left: 4px solid var(--mark); }
-.now { font-size: var(--now); }
-:focus-visible { outline: 2px solid var(--mark); }
-@media (max-width: 40rem) { .left, .right { flex: 0 1 auto; } }
-`;
-
 export class Projector {
   #at = 0;
   #steps = [];
@@ -25,9 +14,7 @@ export class Projector {
     Object.assign(this, { place, equations, answer, words, passed, beside, left });
     [this.head, this.screen, this.foot] = place.children;
     this.told = this.screen.firstElementChild.attachShadow({ mode: "open" });
-    const own = new CSSStyleSheet();
-    own.replaceSync(STYLE);
-    this.told.adoptedStyleSheets = [...equations.root.adoptedStyleSheets, own];
+    this.told.adoptedStyleSheets = equations.root.adoptedStyleSheets;
     const [before, after, leave] = this.foot.querySelectorAll("button");
     before.addEventListener("click", () => this.go(-1));
     after.addEventListener("click", () => this.go(1));

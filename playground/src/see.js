@@ -1,6 +1,6 @@
 /* The motion of the problem, in a frame: a new one for every problem, so that nothing of the last is left. */
+import { written } from "./declared.js";
 import { make, plainly } from "./dom.js";
-import { written } from "./numbers.js";
 
 /* a mesh as a solid of the body, with a place behind each of its triangles */
 const drawn = (faces) => ({ shift: [], vertices: faces.flat(), faces: faces.map((_, k) => [3 * k, 3 * k + 1, 3 * k + 2]), closed: true });

@@ -55,7 +55,7 @@ int main()
     for (std::size_t i = 0; i < body::n_state; ++i) std::printf("%s %.9g\\n", body::state_names[i].data(), double(dx[i]) + 0.0);
 }
 `],
-  py: (n, p, x) => ["main.py", `# python3 main.py
+  py: (n, p, x) => ["main.py", `# pip install numpy && python3 main.py
 import ${n} as body
 
 k = body.constants([body.DEFAULTS.get(name, 1.0) for name in body.PARAMETERS])

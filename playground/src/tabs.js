@@ -1,5 +1,5 @@
-/* The tabs: one of them is shown, by click or by arrow keys. */
-import { the } from "./dom.js";
+/* The tabs: one of them is shown, by click, by arrow keys, Home or End. */
+import { along, the } from "./dom.js";
 
 export class Tabs {
   /* names: of the panels, whose tabs are called tab-NAME; shown: what is done when one is */
@@ -7,9 +7,10 @@ export class Tabs {
     Object.assign(this, { names, shown, now: names[0] });
     for (const x of names) the(`tab-${x}`).addEventListener("click", () => this.show(x));
     the(`tab-${names[0]}`).parentElement.addEventListener("keydown", (e) => {
-      const by = { ArrowRight: 1, ArrowLeft: -1 }[e.key];
-      if (!by) return;
-      this.show(names[(names.indexOf(this.now) + by + names.length) % names.length]);
+      const to = along(e.key, names.indexOf(this.now), names.length);
+      if (to === undefined) return;
+      e.preventDefault();
+      this.show(names.at(to % names.length));
       the(`tab-${this.now}`).focus();
     });
   }

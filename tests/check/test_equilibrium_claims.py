@@ -97,7 +97,7 @@ def test_another_value_is_refused():
         for wrong in changes(claim):
             assert refused(judge(said(step, claim, wrong))), wrong
             seen.add(claim.kind)
-    assert len(seen) == 14
+    assert len(seen) == 16
 
 
 def test_another_verdict_is_refused():
@@ -140,10 +140,28 @@ def test_no_body_points_or_hangs_the_other_way():
         subject, _, kind = claim.kind.partition(".")
         if subject == "position":
             assert not judge(step)
-            other = Claim(f"position.{OPPOSITES[kind]}", claim.values)
+            word, _, end = kind.partition("_")
+            other = Claim(f"position.{OPPOSITES[word]}{end and '_'}{end}", claim.values)
             assert refused(judge(exchanged(step, claim, other))), claim
             seen.add(kind)
-    assert seen == {*OPPOSITES}
+    assert seen == {*OPPOSITES, "along_of", "against_of", "lowest_near", "highest_near"}
+
+
+def test_decimals_are_near_a_position_and_no_other_point_is():
+    for judge, step, claim in made():
+        if claim.kind.startswith(("position.lowest", "position.highest")):
+            near = claim.kind.endswith("_near")
+            kind = claim.kind.removesuffix("_near") if near else f"{claim.kind}_near"
+            assert "decimals are near" in judge(exchanged(step, claim, Claim(kind)))
+
+
+def test_no_other_body_of_a_product_points_there():
+    """A body's number is told where there are several, and no other one."""
+    (own,) = {judge: 0 for judge, step, x in made() if x.kind == "position.along_of"}
+    for judge, step, claim in made():
+        if judge == own and claim.kind == "position.along_of":
+            few = Claim("position.along", claim.values[:2])
+            assert "of which body" in judge(exchanged(step, claim, few))
 
 
 @pytest.mark.parametrize(("potential", "kinds"), [("", 4), ("mgl*A_33", 2), ("A_33 + A_33^2", 2)])
@@ -174,7 +192,7 @@ def test_eigenvalues_are_rounded_to_the_nearest():
             for wrong in shifted(claim):
                 assert "nearest" in judge(said(step, claim, wrong)), wrong
                 seen += 1
-    assert seen == 22
+    assert seen == 26
 
 
 def test_real_eigenvalues_near_a_point_are_not_imaginary():

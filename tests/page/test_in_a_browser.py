@@ -59,6 +59,7 @@ DRAWN = """(n) => {
     heard("clearRect", () => Object.assign(kept, { dots: [], lines: [], strokes: [] }));
     heard("arc", (x, y) => kept.dots.push([x, y]));
     heard("beginPath", () => { kept.path = []; });
+    heard("moveTo", (x, y) => (kept.begins ??= []).push([x, y]));
     heard("stroke", function () { kept.strokes.push([this.strokeStyle, kept.path]); });
     for (const name of ["moveTo", "lineTo"]) {
         heard(name, (x, y) => [kept.lines, kept.path].forEach((list) => list.push([x, y])));
@@ -127,6 +128,35 @@ def test_seen_from_the_body_its_points_stay(opened):
     shown.check(".within input")
     assert np.abs(points(0.5) - points(2.5)).max() < 1e-6
     assert opened(derived("sl3").motion_page(1.0)).locator(".within").count() == 0
+
+
+PARTED = """() => {
+    const { prototype } = CanvasRenderingContext2D, told = globalThis.told = [];
+    const { fillText } = prototype;
+    prototype.fillText = function (text, ...a) {
+        told.push(text);
+        fillText.call(this, text, ...a);
+    };
+}"""
+
+
+def test_a_reading_that_is_no_number_is_a_gap_and_told(opened):
+    """Not a line across, nor an empty graph: √(cos θ − ¾) of a pendulum that swings beyond."""
+    text = {"name": "root", "y": ["sqrt(A_11 - 0.75)"]}
+    bob, down = {"mass": 1, "at": [0, -1]}, {"kind": "gravity", "g": [0, -9.81]}
+    swing = {"name": "swing", "group": "SO(2)", "point": [bob], "potential": [down]}
+    d = derive.derive(problem_of(swing | {"output": [text]}))
+    shown = opened(d.motion_page(3.0, start={"zeta_1": 3.0}))
+    shown.wait_for_timeout(100)
+    shown.evaluate(PARTED)
+    shown.evaluate(DRAWN, shown.locator("canvas").count() - 1)
+    seek(shown, 2.9)
+    curve = max((x for _, x in shown.evaluate("drawn.strokes")), key=len)
+    there = np.isfinite(np.array(curve)[:, 1])
+    assert (there[1:] != there[:-1]).sum() >= 4
+    begins = [round(y, 6) for _, y in shown.evaluate("drawn.begins")]
+    assert {round(curve[k + 1][1], 6) for k in np.flatnonzero(~there[:-1] & there[1:])} <= {*begins}
+    assert any(re.fullmatch(r"\d+ NaN, t = 0\.\d+ …", x) for x in shown.evaluate("told"))
 
 
 def test_a_curve_ends_where_its_time_does(opened):

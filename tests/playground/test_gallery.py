@@ -9,8 +9,8 @@ import pytest
 
 from derive.command.showing import ready_made
 from derive.views.language import LANGUAGES
-from playground.shelves import picture, shelves
 from playground.site import built
+from playground.stage import picture, shelves
 from tests.support.playground_site import (
     moving,
     opened,
@@ -76,6 +76,10 @@ def test_things_are_chosen_by_mouse_and_by_keys(fresh, site):
     above = fresh.evaluate(FOCUSED)
     fresh.keyboard.press("ArrowDown")
     assert above != fresh.evaluate(FOCUSED) == "Kovalevskaya’s top"
+    for key, k in (("Home", 0), ("ArrowLeft", 0), ("End", -1), ("ArrowRight", -1)):
+        fresh.keyboard.press(key)
+        assert fresh.evaluate(FOCUSED) == THINGS[k]["en"]
+    fresh.locator(".shelves a:has-text('Kovalevskaya')").focus()
     with rewalked(fresh, "kovalevskaya_top"):
         fresh.keyboard.press("Enter")
     fresh.wait_for_selector("iframe[data-moved]")

@@ -436,6 +436,14 @@ def test_by_keys_and_nothing_is_asked_of_others(fresh, site):
     for id in ("ready", "as-text", "as-form", "link", "cm-content", "tab-walk", "check", "walk"):
         assert any(id in x for x in reached), (id, reached)
     fresh.focus("#tab-walk")
+    for key, tab in (
+        ("End", "take"),
+        ("ArrowRight", "walk"),
+        ("ArrowLeft", "take"),
+        ("Home", "walk"),
+    ):
+        fresh.keyboard.press(key)
+        assert fresh.evaluate("document.activeElement.id") == f"tab-{tab}"
     fresh.keyboard.press("ArrowRight")
     fresh.wait_for_selector("iframe[data-moved]", timeout=90_000)
     assert fresh.evaluate("document.activeElement.id") == "tab-see"

@@ -7,7 +7,7 @@ import pytest
 
 from derive.command.showing import ready_made
 from tests.support.played import Played, text_of
-from tests.support.playground_site import chosen, visit
+from tests.support.playground_site import chosen, opened, visit, walked
 
 WHOLE = ["lagrangian", "group", "cartan", "exterior", "kernel", "body"]
 NOTE = {"lagrangian": 3, "group": 12, "cartan": 15, "exterior": 25, "kernel": 34}
@@ -115,6 +115,31 @@ def test_a_line_of_the_answer_leads_to_its_step(fresh, site):
     assert fresh.evaluate(
         f"{faces}.every((x) => getComputedStyle(x).fontFamily.endsWith('monospace'))"
     )
+
+
+SETTLED = """async (link) => {
+    const places = [], walk = document.getElementById("walk").shadowRoot;
+    link.click();
+    for (let k = 0; k < 12; ++k) {
+        const bar = document.querySelector(".read .bar").getBoundingClientRect().bottom;
+        places.push(Math.round(walk.activeElement.getBoundingClientRect().top - bar));
+        await new Promise((done) => requestAnimationFrame(() => setTimeout(done)));
+    }
+    return places;
+}"""
+"""How far below the bar a step begins that a link goes to, at once and after each frame."""
+
+
+def test_a_step_stands_still_from_the_first_on(browser, site):
+    """Heights of steps that nobody has seen do not move it when they come."""
+    phone = {"width": 390, "height": 844}
+    for name in ("pendulum", "top"):
+        with opened(browser, viewport=phone, has_touch=True, locale="fr-FR") as page:
+            page.goto(f"{site}?lang=fr#{name}")
+            walked(page, name)
+            line = page.locator("#answer p a").first
+            assert {*line.evaluate(SETTLED)} == {0}
+            assert page.evaluate("play.equations.at().id") == f"{name}.motion"
 
 
 def test_the_last_line_leads_to_the_last_step(fresh, site):

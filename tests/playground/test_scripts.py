@@ -122,7 +122,7 @@ exp = [0.3, 0, 0]
     }
     call = "written(given.text, given.numbers)"
     given = {"text": text, "numbers": numbers}
-    told = in_node.told('import { written } from "./src/numbers.js";', call, given)
+    told = in_node.told('import { written } from "./src/declared.js";', call, given)
     found = tomllib.loads(told["text"])
     assert found["parameters"] == {"m": -2, "k": {"meaning": "default", "default": 4}}
     assert found["initial"] == {"zeta_1": 2, "exp": [0.3, 0, 0]}
@@ -138,7 +138,7 @@ def test_names_of_the_velocity_are_the_emitted_ones(name):
     problem = load(READY / f"{name}.toml")
     given = {"schema": schema(), "text": text_of(name)}
     call = "velocity(given.schema, given.text)"
-    found = in_node.told('import { velocity } from "./src/state.js";', call, given)
+    found = in_node.told('import { velocity } from "./src/completion.js";', call, given)
     factors = [x.name for x in problem.group.factors] or [problem.group.name]
     held = {f"zeta_{a}" for a in (problem.lagrangian.held if problem.lagrangian else ())}
     velocity = [x for x in module_of(name).STATE if x.startswith(("zeta_", "w_"))]
@@ -287,10 +287,9 @@ def test_the_pages_of_the_site_have_its_addresses():
     assert len(conf["packed"](text)) <= len(own)
 
 
-@pytest.mark.parametrize("module", ["site", "serve"])
-def test_help_is_printed_and_nothing_done(module):
+def test_help_is_printed_and_nothing_done():
     """By its module and by its file."""
-    for how in (["-m", f"playground.{module}"], [str(ROOT / "playground" / f"{module}.py")]):
+    for how in (["-m", "playground.site"], [str(ROOT / "playground" / "site.py")]):
         done = subprocess.run(
             [sys.executable, *how, "--help"], cwd=ROOT, capture_output=True, text=True, timeout=30
         )

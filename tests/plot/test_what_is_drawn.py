@@ -65,6 +65,28 @@ def test_a_change_at_one_instant_alone_is_seen(rows):
     assert panel.get_ylabel().startswith("energy\nrelative error")
 
 
+def test_what_is_missing_is_a_gap_and_told():
+    """In the state, of a turn, and in the errors, also where the first value is missing."""
+    t = np.linspace(0, 9, 10)
+    turn = np.stack([np.cos(t / 3), -np.sin(t / 3), np.sin(t / 3), np.cos(t / 3)], -1)
+    zeta, energy = np.sin(t / 5), 2 + 1e-3 * t
+    zeta[[4, 5]], turn[7, 2], energy[0] = np.nan, np.nan, np.inf
+    names = {f"A_{i}{j}": "state" for i in (1, 2) for j in (1, 2)}
+    kinds = names | {"zeta_1": "state", "energy": "energy"}
+    run = plain_run(np.column_stack([t, turn, zeta, energy]), **kinds)
+    figure = figure_of(run, "state")
+    angle, velocity = (next(iter(curves(x).values())) for x in figure.get_axes())
+    assert np.flatnonzero(np.isnan(angle)).tolist() == [7]
+    assert angle[[0, 6, 8, 9]] == pytest.approx(t[[0, 6, 8, 9]] / 3)
+    assert np.flatnonzero(np.isnan(velocity)).tolist() == [4, 5]
+    told = figure.get_axes()[-1].get_xlabel()
+    assert "missing values: 3, the first of $\\zeta_{1}$ at $t = 4$" in told
+    panel, _ = panel_of(run, "energy")
+    (error,) = curves(panel).values()
+    assert error[2:] == pytest.approx(1e-3 * (t[2:] - 1) / 2.001)
+    assert "missing values: 1, the first of energy at $t = 0$" in panel.get_xlabel()
+
+
 @pytest.mark.parametrize("turned", [0.1, 0.5, 1.0, 2.5, 6.0])
 def test_a_state_that_is_too_fast_for_its_instants_is_named_instead(turned):
     """By how much it turns from one instant to the next, in radians: 8 instants a period are 0.79;

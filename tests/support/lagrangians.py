@@ -147,6 +147,10 @@ def disc():
     return problem_of({"name": "x", "group": "SE(3)", "inertia": {"operator": operator}})
 
 
+TWO = squares(1, 1, 2, 3) + " - A1_21 - A2_33"
+"""A pendulum and a top that do not act on each other."""
+
+
 def every_equilibrium():
     """Equilibria that together reach whatever may be said of them."""
     solid = squares(3, 5, 11, 13, 13, 13)
@@ -165,6 +169,8 @@ def every_equilibrium():
         derive(heavy("132", "A_33/2", "")).equilibria(exact),
         derive("lagrange_top").equilibria({"A_33": -1}),
         derive("pendulum").equilibria(),
+        derive(lagrangian(TWO, "SO(2) x SO(3)")).equilibria({"A1_21": 1, "A2_33": 1}),
+        derive(lagrangian(TWO, "SO(2) x SO(3)")).equilibria({"A1_21": -1, "A2_33": -1}),
         derive("kirchhoff").equilibria({"Pi_1": 1}),
         derive(lagrangian(solid, "SE(3)", side="right")).equilibria({"Pi_1": 1}),
         derive(lagrangian(solid, "SE(3)")).equilibria({"Pi_1": 1}),

@@ -5,8 +5,7 @@ import shutil
 import threading
 from contextlib import contextmanager
 
-from playground.serve import server
-from playground.site import OWN, built
+from playground.site import OWN, built, server
 from tests.support.needs import BROWSERS
 
 BEHIND = (

@@ -83,7 +83,7 @@ def axes(figure: Any, run: Run, word: Any) -> None:
 
 def paths(A: Array) -> Array:
     """How far the tip of each axis goes in all; A at the instants, (instants, n, n)."""
-    found: Array = np.linalg.norm(np.diff(A, axis=0), axis=1).sum(axis=0)
+    found: Array = np.nansum(np.linalg.norm(np.diff(A, axis=0), axis=1), axis=0)
     return found
 
 

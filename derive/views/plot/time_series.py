@@ -65,10 +65,12 @@ def turned(run: Run, key: str, members: list[Column], word: Any) -> Panel | None
     if [letter_and_suffix(x.name)[1] for x in members] not in INDICES:
         return None
     A = np.stack([run[x.name] for x in members], -1).reshape(-1, n, n)
-    if not np.allclose(A @ A.transpose(0, 2, 1), np.eye(n), atol=1e-6):
+    there = np.isfinite(A).all(axis=(1, 2))
+    if not np.allclose(A[there] @ A[there].transpose(0, 2, 1), np.eye(n), atol=1e-6):
         return None
     if n == 2:
-        angle: Array = np.unwrap(np.arctan2(A[:, 1, 0], A[:, 0, 0]))
+        angle: Array = np.full(len(A), np.nan)
+        angle[there] = np.unwrap(np.arctan2(A[there, 1, 0], A[there, 0, 0]))
         return Panel(word("angle"), "rad", {word("angle"): angle})
     k = int(np.argmin(paths(A)))
     tip = {label(members[n * i + k].name): A[:, i, k] for i in range(n)}
@@ -94,7 +96,7 @@ def state(figure: Any, run: Run, word: Any, kind: str = "state") -> None:
         if drawn is None:
             curves = {label(x.name): run[x.name] for x in members}
             drawn = Panel(label(key), members[0].unit, curves)
-        size, fast = max(float(np.abs(y).max()) for y in drawn.curves.values()), []
+        size, fast = max(float(np.abs(known(y)).max()) for y in drawn.curves.values()), []
         for k, (name, y) in enumerate([*drawn.curves.items()][:MOST]):
             if _is_too_fast(y, size):
                 fast.append(name)
@@ -103,11 +105,31 @@ def state(figure: Any, run: Run, word: Any, kind: str = "state") -> None:
         name = next(iter(drawn.curves)) if len(drawn.curves) == 1 else drawn.name
         panel.set_ylabel(with_unit(name, drawn.unit))
         _legend(panel, run, _named(f"{word('too few instants:')}\n", fast))
-    panels[-1].set_xlabel(time_label(run))
+    panels[-1].set_xlabel(time_label(run) + missing(run, word, kind))
+
+
+def known(y: Array) -> Array:
+    """The values of a column that are numbers, 0 where none is."""
+    found: Array = y[np.isfinite(y)]
+    return found if len(found) else np.zeros(1)
+
+
+def missing(run: Run, word: Any, *kinds: str) -> str:
+    """A line below: how many values of the columns of some kinds are no numbers, which are gaps in
+    their curves, and where the first one is; empty where there is none."""
+    columns = (x.name for x in run.columns if x.kind in kinds)
+    lost = [(k, x) for x in columns for k in np.flatnonzero(~np.isfinite(run[x])).tolist()]
+    if not lost:
+        return ""
+    first, name = min(lost, key=lambda x: x[0])
+    told = word("missing values: {count}, the first of {name} at {time}")
+    where = {"name": label(shown(run.facts, name)), "time": at_time(run, first)}
+    return f"\n{told.format(count=len(lost), **where)}"
 
 
 def _is_too_fast(y: Array, size: float) -> bool:
     """Does a column turn back too often for the instants of its run?"""
+    y = known(y)
     if len(y) < 1 / OFTEN or np.ptp(y) <= EVEN * size:
         return False
     steps = np.diff(y)
@@ -159,7 +181,7 @@ def _curve(panel: Any, t: Array, away: Array, k: int, **more: Any) -> None:
 
 def constant(away: Array, relative: bool, word: Any) -> str:
     """How constant what is constant is, in words; empty where it has a curve."""
-    most = float(away.max())
+    most = float(known(away).max())
     if not most:
         return f"{word('exact:')} "
     if not relative or most >= AT_ROUNDING:
@@ -172,11 +194,11 @@ def changes(run: Run) -> dict[str, tuple[Array, float]]:
     vector that of the vector; where it is 0, or nothing but rounding beside others of its name, the
     difference itself."""
     sizes, kept = norms(run), {**run.of_kind("energy"), **run.of_kind("conserved")}
-    scales = {name: sizes.get(vector_of(name), abs(y[0])) for name, y in kept.items()}
+    scales = {name: sizes.get(vector_of(name), abs(known(y)[0])) for name, y in kept.items()}
     for name, scale in scales.items():
         alike = [y for x, y in scales.items() if base_of(x) == base_of(name)]
         scales[name] = scale if scale > ROUNDED * max(alike) else 0.0
-    return {x: (np.abs(y - y[0]) / (scales[x] or 1.0), scales[x]) for x, y in kept.items()}
+    return {x: (np.abs(y - known(y)[0]) / (scales[x] or 1.0), scales[x]) for x, y in kept.items()}
 
 
 def size_of_energy(run: Run) -> tuple[float, float]:
@@ -191,10 +213,10 @@ def energy(figure: Any, run: Run, word: Any) -> None:
     panel, found = figure.subplots(), changes(run)
     curves = [(run.t, in_words(name, word), *x) for name, x in found.items()]
     kept = _drawn_errors(panel, curves, word)
-    vectors = any(abs(run[x][0]) < scale for x, (_, scale) in found.items())
+    vectors = any(abs(known(run[x])[0]) < scale for x, (_, scale) in found.items())
     told = word("components relative to the length of their vector") if vectors else ""
     error = word("relative change" if run.facts.get("drives") else "relative error")
-    _errors(panel, run, (error, *wrap(told, LINE)), kept)
+    _errors(panel, run, (error, *wrap(told, LINE)), kept, missing(run, word, "energy", "conserved"))
 
 
 def energies(figure: Any, runs: Sequence[tuple[str, Run]], word: Any) -> None:
@@ -202,14 +224,15 @@ def energies(figure: Any, runs: Sequence[tuple[str, Run]], word: Any) -> None:
     begins with no energy, the difference itself."""
     panel, curves = figure.subplots(), []
     for name, run in runs:
-        y = run["energy"]
-        away = np.abs(y - y[0]) / (abs(y[0]) or 1.0)
+        first = known(y := run["energy"])[0]
+        away = np.abs(y - first) / (abs(first) or 1.0)
         drawn = method_in_words(run, word) + f"\n{name}".replace("$", r"\$")
-        curves.append((run.t, drawn, away, abs(y[0])))
+        curves.append((run.t, drawn, away, abs(first)))
     kept = _drawn_errors(panel, curves, word, lw=0.8)
     driven = any(run.facts.get("drives") for _, run in runs)
     change, error = "relative change of the energy", "relative error of the energy"
-    _errors(panel, runs[0][1], (word(change if driven else error),), kept)
+    lost = "".join(missing(x, word, "energy") for _, x in runs)
+    _errors(panel, runs[0][1], (word(change if driven else error),), kept, lost)
 
 
 def _drawn_errors(panel: Any, curves: Sequence[Any], word: Any, **more: Any) -> list[str]:
@@ -225,14 +248,14 @@ def _drawn_errors(panel: Any, curves: Sequence[Any], word: Any, **more: Any) -> 
     return kept
 
 
-def _errors(panel: Any, run: Run, about: Sequence[str], kept: Sequence[str]) -> None:
-    """Finish a panel of errors: what is ``kept`` is said, and where all is there are no axes."""
+def _errors(panel: Any, run: Run, about: Sequence[str], kept: Sequence[str], lost: str) -> None:
+    """Finish a panel of errors: what is ``kept`` or ``lost`` is said; all is kept: no axes."""
     if not panel.get_lines():
         panel.set_axis_off()
-        about, kept = (), [*kept, *about[1:]]
+        about, kept = (), [*kept, *about[1:], *lost.split("\n")[1:]]
     elif not kept and len(panel.get_lines()) == 1:
         about = (panel.get_lines()[0].get_label(), *about)
-    panel.set(xlabel=time_label(run) * bool(about), ylabel="\n".join(about))
+    panel.set(xlabel=(time_label(run) + lost) * bool(about), ylabel="\n".join(about))
     _legend(panel, run, "\n".join(kept))
 
 
@@ -252,7 +275,7 @@ def norms(run: Run) -> dict[str, float]:
     """Vector → its norm at first, of the conserved quantities that are vectors."""
     first: dict[str, list[float]] = {}
     for name, y in run.of_kind("conserved").items():
-        first.setdefault(vector_of(name), []).append(float(y[0]))
+        first.setdefault(vector_of(name), []).append(float(known(y)[0]))
     return {name: math.hypot(*parts) for name, parts in first.items() if name}
 
 
@@ -290,13 +313,13 @@ def potential(figure: Any, run: Run, word: Any) -> None:
     told = run.facts["potential"]
     u, V = (np.array(told[x], float) for x in ("u", "V"))
     least, at = float(V.min()), run[told["entry"]]
-    V, energy = V - least, float(run["energy"][0]) - least
+    V, energy = V - least, float(known(run["energy"])[0]) - least
     panel = figure.subplots()
     panel.plot(u, V, c=COLOURS[0], label=word("effective potential"))
     panel.axhline(energy, c="#777777", lw=0.8, label=word("energy"))
     below = np.minimum(V, energy)
     panel.fill_between(u, below, energy, color=COLOURS[5], alpha=0.2, lw=0)
-    ends = np.array([at.min(), at.max()])
+    ends = np.array([known(at).min(), known(at).max()])
     there = np.unique(np.concatenate([ends, u[(u > ends[0]) & (u < ends[1])]]))
     panel.plot(there, np.interp(there, u, V), c=COLOURS[1], lw=3, alpha=0.7, label=word("the run"))
     panel.plot(ends, [energy, energy], "o", c=COLOURS[1], ms=4)

@@ -5,7 +5,7 @@ function canvas(scene, label) {
   const pen = shown.getContext("2d");
   const path = (list) => {
     pen.beginPath();
-    list.forEach(([x, y], i) => (i ? pen.lineTo(x, y) : pen.moveTo(x, y)));
+    list.forEach(([x, y], i) => (isFinite(list[i - 1]?.[1]) ? pen.lineTo(x, y) : pen.moveTo(x, y)));
   };
   const stroke = (list, colour, width = 1.2) => {
     path(list);
