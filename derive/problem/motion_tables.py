@@ -285,9 +285,11 @@ def numbers_followed(problem: Problem, group: Group) -> list[str]:
 def named_twice(problem: Problem) -> str:
     """That a number of the state is a parameter, or one of an input, or a signal that of none, in
     words; "" where none is."""
-    if problem.group is None:
+    if problem.group is None and problem.torus is None:
         return ""
-    state = {*numbers_of_state(problem, problem.group), *names_by_block(problem.group).values()}
+    group = problem.group
+    state = {*numbers_of_state(problem, group), *names_by_block(group).values()} if group else set()
+    state |= {*problem.torus.coefficients} if problem.torus else set()
     if clash := next(filter(state.__contains__, problem.parameters), ""):
         return f"parameter {clash!r}: a number of the state; choose another name"
     for k, x in enumerate(problem.inputs, 1):
@@ -297,7 +299,7 @@ def named_twice(problem: Problem) -> str:
     inputs = [name for x in problem.inputs for name in problem.numbers_of(x)]
     for k, z in enumerate(problem.signals, 1):
         if z.input not in inputs:
-            near = nearest(z.input, inputs) or f"; there is {', '.join(inputs)}"
+            near = nearest(z.input, inputs) or f"; there is {entries(inputs)}"
             return f"signal {k}: no number of an input {z.input!r}{near}"
     acting = [
         (f"force {k}, {x.name!r}", (x.name or "", *x.numbers()))

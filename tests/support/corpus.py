@@ -249,10 +249,21 @@ def symmetries_of(name):
 TORI = ("3", "5", "7", "9", "13")
 
 
-def on_the_torus(N):
+STIRRED = {
+    "parameters": {"kappa": 0.3, "nu": 0.02},
+    "input": [{"kind": "covector", "name": "f"}],
+    "damping": [
+        {"kind": "laplacian", "coefficient": "kappa"},
+        {"kind": "laplacian", "coefficient": "nu", "power": 2},
+    ],
+}
+"""An input, drag and hyperviscosity of a fluid on the torus."""
+
+
+def on_the_torus(N, **acting):
     """Zeitlin's model of this size."""
     algebra, inertia = {"of": "torus", "N": int(N)}, {"operator": "laplacian"}
-    return walk(problem_of({"name": "fluid", "algebra": algebra, "inertia": inertia}))
+    return walk(problem_of({"name": "fluid", "algebra": algebra, "inertia": inertia, **acting}))
 
 
 def in_a_field():
@@ -280,7 +291,8 @@ ROADS = {
     "signed": walked({x: partial(of_masses, *y, negative_mass=True) for x, y in SIGNED.items()}),
     "ellipsoid": walked(ELLIPSOIDS),
     "lagrangian": walked(LAGRANGIANS),
-    "torus": {x: partial(on_the_torus, x) for x in TORI},
+    "torus": {x: partial(on_the_torus, x) for x in TORI}
+    | {"stirred": partial(on_the_torus, 5, **STIRRED)},
     "discrete": {x: partial(in_steps, x) for x in (*STEPPED, *DRIVEN_ON)},
     "symmetries": {x: lambda x=x: symmetries_of(x).record for x in (*symmetric.FILES, *SYMMETRIC)},
     "reduced": {x: lambda x=x: reduced.reduced(x).record for x in (*reduced.FILES, *reduced.LONG)},
