@@ -129,12 +129,14 @@ class Problem:
     def unsearched(self) -> str:
         """Why nothing is searched for in a problem without a group of matrices, for messages."""
         if self.torus:
-            acts = bool(self.inputs or self.decay)
-            told = "whose energy and Tr Wᵏ" if acts else "which keeps the energy and Tr Wᵏ"
-            step = f" change by what acts: step {self.name}.power" if acts else ""
+            why = (
+                f"; how the energy and Tr Wᵏ change by what acts: step {self.name}.power"
+                if self.inputs or self.decay
+                else f", which keeps the energy and Tr Wᵏ: step {self.name}.conserved"
+            )
             return (
                 f"{self.name}: symmetries, integrals, equilibria and reductions are not written "
-                f"for the torus, {told}{step or f': step {self.name}.conserved'}"
+                f"for the torus{why}"
             )
         if self.kinematics:
             return (

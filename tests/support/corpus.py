@@ -260,10 +260,20 @@ STIRRED = {
 """An input, drag and hyperviscosity of a fluid on the torus."""
 
 
-def on_the_torus(N, **acting):
+def on_the_torus(N):
     """Zeitlin's model of this size."""
+    return walk(problem_of(fluid(N)))
+
+
+def stirred_torus(N):
+    """The same, forced and damped."""
+    return problem_of(fluid(N) | STIRRED)
+
+
+def fluid(N):
+    """A file of this model."""
     algebra, inertia = {"of": "torus", "N": int(N)}, {"operator": "laplacian"}
-    return walk(problem_of({"name": "fluid", "algebra": algebra, "inertia": inertia, **acting}))
+    return {"name": "fluid", "algebra": algebra, "inertia": inertia}
 
 
 def in_a_field():
@@ -292,7 +302,7 @@ ROADS = {
     "ellipsoid": walked(ELLIPSOIDS),
     "lagrangian": walked(LAGRANGIANS),
     "torus": {x: partial(on_the_torus, x) for x in TORI}
-    | {"stirred": partial(on_the_torus, 5, **STIRRED)},
+    | {"stirred": lambda: walk(stirred_torus(5))},
     "discrete": {x: partial(in_steps, x) for x in (*STEPPED, *DRIVEN_ON)},
     "symmetries": {x: lambda x=x: symmetries_of(x).record for x in (*symmetric.FILES, *SYMMETRIC)},
     "reduced": {x: lambda x=x: reduced.reduced(x).record for x in (*reduced.FILES, *reduced.LONG)},

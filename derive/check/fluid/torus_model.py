@@ -116,6 +116,10 @@ class TorusModel:
             total = total - kappa * self.vorticity[n] * size
         return total
 
+    def input_grid(self) -> Matrix:
+        """f̂(n) as a matrix over n modulo N."""
+        return self.grid(self.input or {})
+
     def fourier(self, sign: int) -> Matrix:
         """e^(± 2πi jk/N) in row j and column k: the discrete Fourier transform."""
         span = range(self.torus.N)
@@ -221,7 +225,6 @@ def _environment(model: TorusModel, W: Matrix) -> Environment:
         return model.basis(n) if isinstance(n, tuple) else Elements(model, [LatticeTerm(n)])
 
     vorticity = _of_grid(model, coefficients)
-
     zeta = _of_grid(model, cache(lambda: model.grid(model.zeta)))
 
     @cache
@@ -242,8 +245,7 @@ def _environment(model: TorusModel, W: Matrix) -> Environment:
         "d/dt": rate,
     }
     if model.input is not None:
-        given = model.input
-        functions["f̂"] = of_place(_of_grid(model, cache(lambda: model.grid(given))))
+        functions["f̂"] = of_place(_of_grid(model, model.input_grid))
     names: dict[str, Any] = {
         "i": model.roots.i,
         "π": model.pi,
@@ -252,9 +254,7 @@ def _environment(model: TorusModel, W: Matrix) -> Environment:
         "P": model.P,
         "Ẇ": model.rate,
         "Π": q.scaled(1 / (model.scale * N), q.transposed(W)),
-    }
-    if model.forcing is not None:
-        names["F"] = model.forcing
+    } | ({} if model.forcing is None else {"F": model.forcing})
     return Environment(
         N,
         _Lazily(
