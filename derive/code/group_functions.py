@@ -168,14 +168,18 @@ class GroupFunctions:
 def refuse(d: Derivation, group: Group, chosen: Options) -> None:
     """``LoweringError`` for a state for which these functions are not written."""
     charts = factor_charts(group.in_user_basis, chosen.attitude).values()
-    reduced = "advected" in d.problem or bool(d.problem.get("lagrangian", {}).get("held"))
+    quotient = bool(d.problem.get("lagrangian", {}).get("held"))
     for on, what in (
         (
             any(x.kind != QUATERNION for x in charts),
             f"written for matrices and quaternions, not with --attitude {chosen.attitude}",
         ),
         (chosen.velocity == "tangent", "not written with --velocity tangent"),
-        (reduced, "not written for a state without all of g and Z"),
+        ("advected" in d.problem, "of elements of a group, and on an algebra the state has none"),
+        (
+            quotient,
+            "of errors in all of g and its velocity, and on a quotient they are modulo symmetries",
+        ),
     ):
         if on:
             raise LoweringError(f"{d.name}: --exponential is {what}: leave it out")

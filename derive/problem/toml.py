@@ -202,6 +202,8 @@ def _fluid(data: Mapping[str, Any], reader: FileReader) -> Problem:
             raise ProblemError(
                 f"key {key!r}: [fluid] says all of the problem; leave this out"
                 + '; a force of the place is forces = "potential" there' * acts
+                + '; forcing and damping are on the torus, [algebra] of = "torus"'
+                * (key in ("input", "damping"))
             )
     name = reader.name_of(data)
     if not isinstance(data["fluid"], dict):
