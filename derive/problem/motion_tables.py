@@ -6,6 +6,8 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Mapping
+from fractions import Fraction
+from itertools import pairwise
 from typing import Any
 
 from ..algebra.factor_charts import chart_names
@@ -141,6 +143,10 @@ def _signals(data: Mapping[str, Any], start: Initial, reader: FileReader) -> tup
         if len(x.times or ()) != len(x.samples or ()):
             count = f"{len(x.times or ())} times and {len(x.samples or ())} values"
             raise ProblemError(f"{where}: {count}; give a value for each time")
+        for k, (a, b) in enumerate(pairwise(x.times or ()), 2):
+            if isinstance(a, int | Fraction) and isinstance(b, int | Fraction) and b <= a:
+                told = f"{float(b):g} does not come after {float(a):g}"
+                raise ProblemError(f"{where}, times, number {k}: {told}")
         for t in x.trees():
             _require_declared(t, where, reader, "t" if x.u is not None else "")
         found.append(x)
