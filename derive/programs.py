@@ -155,8 +155,13 @@ def untrimmed(problem: Problem) -> str:
     """Why nothing is trimmed in a problem of this kind; "" where something may be."""
     if problem.kinematics:
         return "a trim is of forces, and [kinematics] has none: its velocity is given"
-    if problem.fluid or problem.torus:
+    if problem.fluid:
         return "a trim is of a body with inputs, and a fluid has none"
+    if problem.torus:
+        return (
+            "a trim is by linearised equations of g and its velocity, and the state of a fluid on "
+            "the torus is its vorticity alone"
+        )
     if problem.stored:
         mass = next(iter(problem.stored))
         return (

@@ -305,6 +305,12 @@ class TorusLattice:
         found = (n for n in self.places if n[1] > 0 or (n[1] == 0 and n[0] > 0))
         return tuple(sorted(found, key=lambda n: (n[1], n[0])))
 
+    @cached_property
+    def coefficients(self) -> tuple[str, ...]:
+        """The names of Re and Im of ω̂(n) in this order: re_1_0, im_1_0, …; m for a minus sign."""
+        found = ("_".join(str(x).replace("-", "m") for x in n) for n in self.half_plane)
+        return tuple(f"{part}_{x}" for x in found for part in ("re", "im"))
+
     def representative(self, n: Place) -> Place:
         """The representative of n modulo N."""
         a, b = ((x + self.half) % self.N - self.half for x in n)

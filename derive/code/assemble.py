@@ -113,7 +113,7 @@ def assemble(
             *(sentences(d, momenta) if momenta else ()),
         ),
         tuple(lowering.reader.space.names),
-        tuple(_parameter(d, name) for name in parameters),
+        tuple(parameter(d, name) for name in parameters),
         tuple(lowering.reader.inputs),
         tuple(constants),
         group.in_user_basis.basis,
@@ -411,7 +411,7 @@ def _wanted(x: Node) -> str:
     return ""
 
 
-def _parameter(d: Derivation, name: str) -> tuple[str, float | None, str, str]:
+def parameter(d: Derivation, name: str) -> tuple[str, float | None, str, str]:
     """Name, default, unit and meaning of a parameter."""
     p = d.problem["parameters"][name]
     return name, p["default"], p["unit"], p["meaning"]

@@ -367,8 +367,13 @@ def heading(
 
     ``cost``: function → its operations in words; ``parameters``: name and text of each.
     """
+    numbers = [
+        f"  p[{i}] {x['name']}" + (f": {x['text']}" if x["text"] else "")
+        for i, x in enumerate(parameters, language.first)
+    ]
     if p.on_torus:
-        return [*p.conventions, "", *_costs(language, cost)]
+        told = ["Parameters p:", *numbers, ""] if numbers else []
+        return [*p.conventions, "", *told, *_costs(language, cost)]
     none = "" if p.parameters else " none, every number is in the code."
     by_block = [*p.by_block]
     return [
@@ -381,10 +386,7 @@ def heading(
         *(f"  {line}" for line in basis_lines(p)),
         "",
         f"Parameters p:{none}",
-        *(
-            f"  p[{i}] {x['name']}" + (f": {x['text']}" if x["text"] else "")
-            for i, x in enumerate(parameters, language.first)
-        ),
+        *numbers,
         *(["", *listed("Input u = (", p.inputs, ").", 84)] if p.inputs else ()),
         "",
         *_costs(language, cost, ", besides the frame" if p.framing else ""),

@@ -415,6 +415,8 @@ def _loops(
         "cosines": [printer.number(x) for x in tables.cosines],
         "sines": [printer.number(x) for x in tables.sines],
         "scale": printer.number(tables.scale),
+        "driven": tables.driven,
+        "damping": tables.damping,
     }
 
 

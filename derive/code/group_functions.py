@@ -168,15 +168,17 @@ class GroupFunctions:
 def refuse(d: Derivation, group: Group, chosen: Options) -> None:
     """``LoweringError`` for a state for which these functions are not written."""
     charts = factor_charts(group.in_user_basis, chosen.attitude).values()
-    reduced = "advected" in d.problem or bool(d.problem.get("lagrangian", {}).get("held"))
     others = any(x.kind != QUATERNION for x in charts)
-    matrices = f"written for matrices and quaternions, not with --attitude {chosen.attitude}"
-    refuse_first(
-        d.name,
-        (others, f"--exponential is {matrices}"),
-        (chosen.velocity == "tangent", "--exponential is not written with --velocity tangent"),
-        (reduced, "--exponential is not written for a state without all of g and Z"),
+    reasons = (
+        (others, f"written for matrices and quaternions, not with --attitude {chosen.attitude}"),
+        (chosen.velocity == "tangent", "not written with --velocity tangent"),
+        ("advected" in d.problem, "of elements of a group, and on an algebra the state has none"),
+        (
+            bool(d.problem.get("lagrangian", {}).get("held")),
+            "of errors in all of g and its velocity, and on a quotient they are modulo symmetries",
+        ),
     )
+    refuse_first(d.name, *((on, f"--exponential is {why}") for on, why in reasons))
 
 
 def _factors(group: Group) -> list[Factor]:

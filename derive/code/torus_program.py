@@ -9,6 +9,7 @@ which the program says its tables alone; each language has the loops as function
 from __future__ import annotations
 
 import math
+import textwrap
 from collections import defaultdict
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
@@ -19,24 +20,23 @@ from typing import Any, NamedTuple
 import mpmath
 
 from ..algebra.structure import Place, TorusLattice
+from ..language.expression import names
+from ..language.show import show
 from ..language.tree import Tree, mul
+from ..language.values import value
+from ..record.as_json import decode
 from ..record.record import Derivation
 from ..routines import printer_of, text_of
+from .assemble import parameter
 from .dense import Complex
 from .factor import factored
 from .graph import Graph, Node
-from .naming import ClaimedNames
+from .naming import ClaimedNames, plain_text
 from .options import Options
 from .program import EmittedFunction, Load, LoweringError, Program
 from .requests import require_options
 from .schedule import Scheduler, frontier, leaf_places
 from .watched_functions import EmittedEvent, table, values_of
-
-
-def names(torus: TorusLattice) -> tuple[str, ...]:
-    """Those of the numbers of the state: re_1_0, im_1_0, …; m for a minus sign."""
-    found = ("_".join(str(x).replace("-", "m") for x in n) for n in torus.half_plane)
-    return tuple(f"{part}_{x}" for x in found for part in ("re", "im"))
 
 
 def position(torus: TorusLattice, n: Place) -> tuple[int, bool]:
@@ -49,10 +49,11 @@ def position(torus: TorusLattice, n: Place) -> tuple[int, bool]:
 
 
 def turned(name: str) -> str:
-    """The name in the state of what a name like re_m1_0 would be the conjugate of."""
-    part, *n = name.split("_")
+    """The name in the state, or of an input, of what one like re_m1_0 is the conjugate of."""
+    *part, first, second = ("", *name.split("_"))
+    n = (first, second)
     opposite = (x[1:] if x.startswith("m") else f"m{x}" * (x != "0") or x for x in n)
-    return "_".join((part, *opposite))
+    return "_".join((*part[1:], *opposite))
 
 
 def described(torus: TorusLattice) -> tuple[str, ...]:
@@ -66,11 +67,51 @@ def described(torus: TorusLattice) -> tuple[str, ...]:
     )
 
 
-class WrittenOut:
-    """Trees of the record as pairs of nodes; ``leaves``: the numbers of the state."""
+@dataclass(frozen=True)
+class Outside:
+    """What acts from outside in a record: the names of the numbers of its input; ``damping``: a
+    coefficient for each power of |n|², 0 where there is none; ``parameters``: those in these."""
 
-    def __init__(self, torus: TorusLattice, graph: Graph, leaves: list[Node]):
-        self.torus, self.graph, self.leaves = torus, graph, leaves
+    inputs: tuple[str, ...]
+    damping: tuple[Tree, ...]
+    parameters: tuple[str, ...]
+
+    @staticmethod
+    def of(d: Derivation, torus: TorusLattice) -> Outside:
+        """That of a record."""
+        told = {x["power"]: decode(x["coefficient"], "damping") for x in d.problem["damping"]}
+        inputs = (f"{x['name']}_{y}" for x in d.problem["inputs"] for y in torus.coefficients)
+        used = {name for t in told.values() for name in names(t)}
+        return Outside(
+            tuple(inputs),
+            tuple(told.get(p, 0) for p in range(max(told, default=-1) + 1)),
+            tuple(x for x in d.problem["parameters"] if x in used),
+        )
+
+    def described(self) -> tuple[str, ...]:
+        """In words, for the head of a file."""
+        found = ["and F = sum f(n) T_n is what acts from outside, where f(n) has"]
+        if self.inputs:
+            name = self.inputs[0].removesuffix("_re_1_0")
+            found.append(
+                f"the input {name}: Re and Im of its coefficients, in the order of the state;"
+            )
+        if self.damping:
+            size = {0: ""} | {p: f" |n|^{2 * p}" for p in range(1, len(self.damping))}
+            coefficients = ((p, plain_text(show(t))) for p, t in enumerate(self.damping) if t != 0)
+            told = [f"({t if t.isascii() else 'a number'}){size[p]}" for p, t in coefficients]
+            found += textwrap.wrap(f"the damping -({' + '.join(told)}) omega(n);", 88)
+        return tuple(found) if self.inputs or self.damping else ()
+
+
+class WrittenOut:
+    """Trees of the record as pairs of nodes; ``leaves``: the numbers of the state; ``inputs``:
+    those of the input."""
+
+    def __init__(
+        self, torus: TorusLattice, graph: Graph, leaves: list[Node], inputs: Sequence[Node] = ()
+    ):
+        self.torus, self.graph, self.leaves, self.inputs = torus, graph, leaves, inputs
         self.pi = graph.product((graph.num(4), graph.function("atan", graph.num(1))))
 
     def value(self, t: Tree, at: Mapping[str, Place]) -> Complex:
@@ -83,8 +124,13 @@ class WrittenOut:
         if not isinstance(t, tuple):
             raise LoweringError(f"no number {t!r} of the torus")
         op, *parts = t
-        if op == "call" and parts[0] == "ω̂":
-            return self.vorticity(self.place(parts[1], at))
+        if op == "call" and parts[0] in ("ω̂", "f̂"):
+            given = self.leaves if parts[0] == "ω̂" else self.inputs
+            return self.coefficient(given, self.place(parts[1], at))
+        if op == "par":
+            return Complex(g.leaf(parts[0], "parameter"), g.num(0))
+        if op == "pow":
+            return reduce(Complex.__mul__, [self.value(parts[0], at)] * int(parts[1]))
         if op == "norm2":
             return self.value(sum(x * x for x in self.place(parts[0], at)), at)
         if op == "fun" and parts[0] == "sin":
@@ -92,8 +138,8 @@ class WrittenOut:
         if op == "sum":
             return self.total(parts[1], [{**at, parts[0]: n} for n in self.torus.places])
         found = [self.value(x, at) for x in parts]
-        if op == "mul":
-            return reduce(Complex.__mul__, found)
+        if op in ("mul", "add"):
+            return reduce(Complex.__mul__ if op == "mul" else Complex.__add__, found)
         if op == "div" and found[1].im.is_zero:
             below = g.recip(found[1].re)
             return Complex(g.product((found[0].re, below)), g.product((found[0].im, below)))
@@ -116,12 +162,12 @@ class WrittenOut:
         ]
         return Complex(*(g.sum(x) for x in zip(*parts, strict=True)))
 
-    def vorticity(self, n: Place) -> Complex:
-        """ω̂(n), by the state."""
+    def coefficient(self, given: Sequence[Node], n: Place) -> Complex:
+        """That of n, ω̂(n) by the state or f̂(n) by the input."""
         if self.torus.representative(n) == (0, 0):
             return Complex(self.graph.num(0), self.graph.num(0))
         j, conjugate = position(self.torus, n)
-        return Complex(self.leaves[j], -self.leaves[j + 1] if conjugate else self.leaves[j + 1])
+        return Complex(given[j], -given[j + 1] if conjugate else given[j + 1])
 
     def sine(self, k: int) -> Node:
         """sin 2πk/N, by those of 0 < k < N/2."""
@@ -175,7 +221,8 @@ class Term(NamedTuple):
 @dataclass(frozen=True)
 class Loops:
     """The tables of the loops for one N: cos and sin of 2πk/N; for small N the terms of each rate;
-    and what the functions with loops, by ``names``, cost."""
+    and what the functions with loops, by ``names``, cost.  ``driven``: is there an input?
+    ``damping``: so many constants are coefficients of powers of |n|²."""
 
     N: int
     names: frozenset[str]
@@ -183,6 +230,8 @@ class Loops:
     sines: tuple[Fraction, ...]
     table: tuple[tuple[Term, ...], ...]
     operations: Mapping[str, str]
+    driven: bool = False
+    damping: int = 0
 
     @property
     def scale(self) -> Fraction:
@@ -200,15 +249,14 @@ def torus_program(
     ``events``: what is watched on a motion."""
     chosen = options or Options()
     require_on_torus(d, chosen)
-    functions, constants = _looped(torus), tuple[str, ...]()
+    outside = Outside.of(d, torus)
+    functions = _looped(torus, outside)
     if not chosen.conserved:
         del functions["conserved"]
-    if torus.N <= WRITTEN_OUT:
-        own, constants = _written_out(d, torus)
-        functions |= own
-        looped = {*functions} - {*own}
-    else:
-        looped = {*functions} - {"constants"}
+    own, constants = (_written_out if torus.N <= WRITTEN_OUT else _constants)(d, torus, outside)
+    functions |= own
+    looped = {*functions} - {*own}
+    acting = outside.described()
     if events:
         functions["events"] = _watched(d.name, torus, events)
     return Program(
@@ -220,22 +268,24 @@ def torus_program(
             f"The algebra su({torus.N}) in the basis of the torus: T_n = w^(n1 n2) g^n1 h^n2, with",
             "w = e^(2 pi i/N), g = diag(w^(2j)), h e_j = e_(j-1) the shift, n modulo N, and",
             "[T_m, T_n] = -2i sin(2 pi (m1 n2 - m2 n1)/N) T_(m+n).",
-            f"dW/dt = N/(4 pi i) [W, P], N = {torus.N}, W = sum omega(n) T_n the vorticity and",
+            f"dW/dt = N/(4 pi i) [W, P]{' + F' * bool(acting)}, N = {torus.N}, "
+            "W = sum omega(n) T_n the vorticity and",
             "P = -sum omega(n)/|n|^2 T_n the stream function, in space sums of e^(i n.x);",
+            *acting,
             "energy is the sum of |omega(n)|^2/(2 |n|^2), the mean of half the squared velocity"
             + ("; trace_k is Tr W^k/N." if chosen.conserved else "."),
             *described(torus),
             *(_scratch(torus) if torus.N > TABLE else ()),
         ),
-        names(torus),
-        (),
-        (),
+        torus.coefficients,
+        tuple(parameter(d, x) for x in outside.parameters),
+        outside.inputs,
         constants,
         (),
         functions,
         conserved=CONSERVED if chosen.conserved else (),
         events=table(events),
-        loops=loops(torus, looped) if looped else None,
+        loops=loops(torus, looped, outside) if looped else None,
         on_torus=True,
     )
 
@@ -260,30 +310,45 @@ def _scratch(torus: TorusLattice) -> tuple[str, ...]:
 # -- written out ---------------------------------------------------------------------------------
 
 
+def _constants(
+    d: Derivation, torus: TorusLattice, outside: Outside
+) -> tuple[dict[str, EmittedFunction], tuple[str, ...]]:
+    """The coefficients of damping that loops read, power by power, and their names."""
+    graph, claimed = Graph(), ClaimedNames()
+    known = {x: graph.leaf(x, "parameter") for x in outside.parameters}
+    given = leaf_places(claimed, known.values(), "p")
+    found = [value(t, {}, known, graph.function, graph.num) for t in outside.damping]
+    constants = tuple(claimed.claim(f"damping_{p}", f"power {p}") for p in range(len(found)))
+    return {"constants": Scheduler(claimed, {}).function(found, given)}, constants
+
+
 def _written_out(
-    d: Derivation, torus: TorusLattice
+    d: Derivation, torus: TorusLattice, outside: Outside
 ) -> tuple[dict[str, EmittedFunction], tuple[str, ...]]:
     """The functions of the record's equations, term by term, and the names of the constants."""
     graph = Graph()
     state = _leaves(graph, torus)
-    out = WrittenOut(torus, graph, [*state.values()])
+    inputs = [graph.leaf(x, "input") for x in outside.inputs]
+    out = WrittenOut(torus, graph, [*state.values()], inputs)
     motion, energy = d["motion"].equations[0].rhs, d["energy"].equations[0].rhs
     rates = [x for n in torus.half_plane for x in out.value(motion, {"𝐧": n})]
     wanted: dict[str, list[Node]] = {"rhs": rates, "energy": [out.value(energy, {}).re]}
     wanted = {name: factored(graph, found) for name, found in wanted.items()}
     claimed = ClaimedNames()
-    places = leaf_places(claimed, state.values(), "x")
+    places = leaf_places(claimed, state.values(), "x") | leaf_places(claimed, inputs, "u")
+    known = [graph.leaf(x, "parameter") for x in outside.parameters]
+    given = leaf_places(claimed, known, "p")
     scheduler = Scheduler(claimed, {})
     fixed = frontier(x for found in wanted.values() for x in found)
     constants = tuple(claimed.claim(f"sine_{i}", f"node {x.id}") for i, x in enumerate(fixed, 1))
     kept = {x: (name, ("k", i)) for i, (x, name) in enumerate(zip(fixed, constants, strict=True))}
-    functions = {"constants": scheduler.function(fixed, {})}
+    functions = {"constants": scheduler.function(fixed, given)}
     functions |= {name: scheduler.function(x, places | kept) for name, x in wanted.items()}
     return functions, constants
 
 
 def _leaves(graph: Graph, torus: TorusLattice) -> dict[str, Node]:
-    return {x: graph.leaf(x, "state") for x in names(torus)}
+    return {x: graph.leaf(x, "state") for x in torus.coefficients}
 
 
 def _watched(name: str, torus: TorusLattice, events: Sequence[EmittedEvent]) -> EmittedFunction:
@@ -299,13 +364,16 @@ def _watched(name: str, torus: TorusLattice, events: Sequence[EmittedEvent]) -> 
 # -- loops ---------------------------------------------------------------------------------------
 
 
-def loops(torus: TorusLattice, looped: Collection[str]) -> Loops:
+def loops(torus: TorusLattice, looped: Collection[str], outside: Outside) -> Loops:
     """The tables for one N."""
     N, h = torus.N, torus.half
     turn, product = 4 * h * (h + 1) ** 2, 4 * N**3
     by_three = 3 * N**3  # products of complex numbers by three real ones
     whole, least = 3 * turn + product, 3 * turn + by_three
-    table = tuple(_terms(torus, n) for n in torus.half_plane) if N <= TABLE else ()
+    driven, damping = bool(outside.inputs), len(outside.damping)
+    by_table = N <= TABLE and not (driven or damping)
+    table = tuple(_terms(torus, n) for n in torus.half_plane) if by_table else ()
+    few = (N * N - 1) * (driven + (damping + 1) * bool(damping))  # of what acts from outside
     terms = sum(map(len, table))
     return Loops(
         N,
@@ -314,13 +382,15 @@ def loops(torus: TorusLattice, looped: Collection[str]) -> Loops:
         tuple(_rounded(_cosine(Fraction(k, N) - Fraction(1, 4))) for k in range(N)),
         table,
         {
-            "rhs": f"{whole} mul, {whole} add, and {6 * N * N} of less order",
+            "rhs": f"{whole} mul, {whole} add, and {6 * N * N + few} of less order",
             "rhs by table": f"{8 * terms} mul, {4 * terms} add",
-            "rhs by three": f"{least} mul, {least} add, and {9 * N * N} of less order",
+            "rhs by three": f"{least} mul, {least} add, and {9 * N * N + few} of less order",
             "energy": f"{N * N - 1} mul, {N * N - 1} add, {(N * N - 1) // 2} div",
             "conserved": f"{turn + product} mul, {turn + product} add",
             "conserved by three": f"{turn + by_three} mul, {turn + by_three} add",
         },
+        driven,
+        damping,
     )
 
 
@@ -357,14 +427,18 @@ def _cosine(turns: Fraction) -> Fraction:
         return Fraction(str(mpmath.cospi(half_turns)))
 
 
-def _looped(torus: TorusLattice) -> dict[str, EmittedFunction]:
+def _looped(torus: TorusLattice, outside: Outside) -> dict[str, EmittedFunction]:
     """Functions of which only what they read and how much they write is said here."""
 
-    def hollow(count: int) -> EmittedFunction:
-        return EmittedFunction((Load("x", "x", 0),) * bool(count), (), (Fraction(0),) * count)
+    def hollow(count: int, reads: str = "x") -> EmittedFunction:
+        return EmittedFunction(tuple(Load(x, x, 0) for x in reads), (), (Fraction(0),) * count)
 
-    sizes = {"constants": 0, "rhs": torus.N**2 - 1, "energy": 1, "conserved": len(POWERS)}
-    return {name: hollow(count) for name, count in sizes.items()}
+    of_rates = "x" + "u" * bool(outside.inputs) + "k" * bool(outside.damping)
+    return {
+        "rhs": hollow(torus.N**2 - 1, of_rates),
+        "energy": hollow(1),
+        "conserved": hollow(len(POWERS)),
+    }
 
 
 OF_MATRICES = ("rhs", "conserved")
@@ -383,6 +457,9 @@ def printed_sums(language: str, loops: Loops, fields: Mapping[str, Any]) -> dict
         "ROW": -(-N // pad) * pad,
         "COLUMNS": -(-M // pad) * pad,
         "PADDED": pad > 1,
+        "DRIVEN": loops.driven,
+        "DAMPED": loops.damping > 0,
+        "POWERS": loops.damping,
         "FOURS": N - N % 4,
         "SIZE": float(N),
         "SCALE": float(loops.scale),

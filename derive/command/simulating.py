@@ -207,11 +207,12 @@ def summary(run: Run) -> list[str]:
     lines = [f"{name}: {span}, by {method}, in {how}"]
     drives = run.facts.get("drives", [])
     for kind in ("energy", "conserved"):
-        by = drives if kind == "energy" else [x for x in drives if x in (INPUTS, FORCES)]
-        why = f": by {' and '.join(by)}" if by else ""
         for label, column in run.of_kind(kind).items():
             if label in run.facts.get("vanishing", ()):
                 continue
+            every = kind == "energy" or parts(label)[0] == "trace"  # those of a fluid on the torus
+            by = [x for x in drives if every or x in (INPUTS, FORCES)]
+            why = f": by {' and '.join(by)}" if by else ""
             change = float(np.abs(column - column[0]).max())
             first = at_first(run, label)
             place = " (derive integrals shows it)" * (parts(label)[0] == "integral")

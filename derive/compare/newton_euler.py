@@ -7,7 +7,7 @@ or taken otherwise, in the mass matrix, in the Coriolis terms or in both.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from itertools import product
 from typing import Any
@@ -255,6 +255,34 @@ def of_frames(b: Balance, terms: list[Term], name: Callable[[str], str]) -> Iter
         each = zip(own, values, arms, strict=True)
         others = [changed_force(x, y, arm, kind, to) for x, y, arm in each]
         yield Hypothesis(told, 0, b.unexplained - np.subtract(others, own).sum(axis=0))
+    if all(x.arm is None for x in terms) and b.turns().shape[-1] == len(b.rows["moment"]) == 3:
+        yield from of_coupled(b, [at for at, _ in placed], np.sum(own, axis=0), name(""))
+
+
+def of_coupled(
+    b: Balance, acting: Sequence[Callable[[Array], Array]], own: Array, name: str
+) -> Iterator[Hypothesis]:
+    """Of a covector, as that of a tensor that couples ω and v, one of the two velocities alone is
+    along the axes of the other frame, or with it the moment or the force, as of a tensor that is
+    turned in its part of v alone."""
+    A, (w, v) = b.turns(), b.velocities()
+    back, first, last = A.transpose(0, 2, 1), slice(0, 3), slice(3, 6)
+    for frame, R, out in (("space", A, turned(back)), ("the body", back, turned(A))):
+        to = turned(R)
+        for letter, kind, state, rows, beside in (
+            ("ω", "moment", (to(w), v), first, last),
+            ("v", "force", (w, to(v)), last, first),
+        ):
+            x = b.with_velocities(*state)
+            taken = np.sum([at(x) for at in acting], axis=0)
+            if np.abs((taken - own)[:, beside]).max() <= EXACT * np.abs(own).max():
+                continue  # no coupling: what is said of the moment or the force alone
+            both = taken.copy()
+            both[:, rows] = out(taken[:, rows])
+            axes = f"along the axes of {frame} instead"
+            yield Hypothesis(f"{letter} in {name} is {axes}", 0, b.unexplained - (taken - own))
+            told = f"{letter} and the {kind} in {name} are {axes}"
+            yield Hypothesis(told, 0, b.unexplained - (both - own))
 
 
 def moving(b: Balance, arm: Array, R: Array) -> Array:

@@ -62,6 +62,8 @@ the matrices of an algebra with those of all that it carries along, of which the
 products."""
 TORUS = 101
 """The largest N of the algebra of the torus: its equations take N³ products."""
+HYPERVISCOSITY = 8
+"""The largest power of the Laplacian in a damping on the torus."""
 TEXT = 1000
 """Letters of a title, a unit, a meaning, which stand in the head of every output."""
 

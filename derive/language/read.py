@@ -31,7 +31,7 @@ IN_THE_BASIS = frozenset({"E", "M", "β", "ζ", "ζ̇", "ψ", "Π", "Π̇", "Φ"
 OF_FIELDS = ("𝒜", "d𝒜")
 """Families of functions, whose members are applied to the brackets after them."""
 FUNCTIONS = frozenset(
-    {"dŨ", "p̃", "M̃", "ρ", "ϖ", "dϖ", "ϖ_h", "dϖ_h", "ω", "g", "δ", "δ′", "d/dt", "ω̂"}
+    {"dŨ", "p̃", "M̃", "ρ", "ϖ", "dϖ", "ϖ_h", "dϖ_h", "ω", "g", "δ", "δ′", "d/dt", "ω̂", "f̂"}
     | {"Ψ", "Ψ_0", "Ψ_1", "Ψ_2", "Θ⁺", "Θ⁻", "dΘ⁺", "dΘ⁻", "ℱ"}
 )
 """Names that are applied to the brackets after them; others are to t and X alone."""

@@ -31,6 +31,7 @@ from ..schema.force_kinds import (
     Damping,
     ForceInput,
     Input,
+    LaplacianDamping,
     QuadraticDamping,
     RotationalDamping,
     ScalarInput,
@@ -258,7 +259,7 @@ def as_forces(
 
 def negative_stiffness_of(
     potentials: Sequence[Potential],
-    damping: Sequence[AnyDamping],
+    damping: Sequence[AnyDamping | LaplacianDamping],
     parameters: Mapping[str, Parameter],
 ) -> str | None:
     """Where a stiffness, a damping or a constant of gravitation is negative, for the defaults of

@@ -31,12 +31,14 @@ from ..language.expression import names
 from ..language.limits import CARRIED, ROWS, TABLE
 from ..language.rational import Matrix
 from ..language.tree import Tree, add, mul, neg, nodes, plain
+from ..schema.force_kinds import CovectorInput, LaplacianDamping
 from ..schema.kind import (
     REPRESENTATIONS,
     SECTIONS,
     Advected,
     Inertia,
     Lagrangian,
+    Parameter,
     StatedAdvected,
     StatedAlgebra,
     StatedTorus,
@@ -54,7 +56,7 @@ from .entries_on_orbit import (
     vanishes_on,
     with_constant_entries,
 )
-from .fields import coordinates, no_entry, undeclared, used_at
+from .fields import coordinates, no_entry, tables, undeclared, used_at
 from .file_reader import FileReader
 from .motion_tables import KEYS as MOTION
 from .motion_tables import motion_fields
@@ -224,7 +226,7 @@ def _sparse(table: Sequence[Matrix]) -> Brackets:
 
 # A problem on the torus: [algebra] of = "torus", its N, and its inertia operator by name.
 
-KEYS = ("name", "title", "algebra", "inertia", *MOTION)
+KEYS = ("name", "title", "parameters", "algebra", "inertia", "input", "damping", *MOTION)
 """The keys of such a file."""
 
 
@@ -234,14 +236,17 @@ def on_torus(data: Mapping[str, Any]) -> bool:
     return isinstance(given, dict) and (given.get("of") == "torus" or {"of", "N"} <= {*given})
 
 
-def torus_problem(data: Mapping[str, Any], reader: FileReader) -> Problem:
+def torus_problem(
+    data: Mapping[str, Any], reader: FileReader, parameters: Mapping[str, Parameter]
+) -> Problem:
     """The problem of a file; ``ProblemError`` for what else it says."""
-    for key, value in data.items():
-        if key not in KEYS and (key, value) != ("parameters", {}):
-            acts = key in ("input", "force", "damping")
+    for key in data:
+        if key not in KEYS:
+            known = f"on the torus there are {', '.join(KEYS)} alone"
+            acts = key == "force"
             raise ProblemError(
-                f"key {key!r}: on the torus there are {', '.join(KEYS)} alone; leave it out"
-                + ", or for N = 3 give the brackets of an [algebra], on which covectors act" * acts
+                f"key {key!r}: {known}; leave it out"
+                + ", or give the force as an [[input]], and in time by a [[signal]]" * acts
             )
     algebra = reader.typed(StatedTorus, data["algebra"], "algebra")
     if algebra.of != "torus":
@@ -255,8 +260,46 @@ def torus_problem(data: Mapping[str, Any], reader: FileReader) -> Problem:
     if given.trivialisation != "right":
         raise ProblemError('inertia, trivialisation: a fluid moves on the "right"; leave it out')
     name = reader.name_of(data)
+    reader.carries(None, parameters)
+    inputs, damping = _outside(data, reader)
     title, motion = reader.title_of(data, name), motion_fields(data, reader)
-    return Problem(name, None, title=title, torus=torus, **motion)
+    return Problem(
+        name,
+        None,
+        title=title,
+        parameters=parameters,
+        inputs=inputs,
+        decay=damping,
+        torus=torus,
+        **motion,
+    )
+
+
+def _outside(
+    data: Mapping[str, Any], reader: FileReader
+) -> tuple[tuple[CovectorInput, ...], tuple[LaplacianDamping, ...]]:
+    """What acts on the vorticity from outside dϖ: a covector, and multiples of powers of −Δ."""
+    known = {CovectorInput.kind: CovectorInput}
+    inputs = tuple(
+        reader.one_of(known, x, f"input {k}") for k, x in enumerate(tables(data, "input"), 1)
+    )
+    if len(inputs) > 1:
+        raise ProblemError("key 'input': one covector holds every component; give one such table")
+    reader.distinct(inputs, reader.parameters)
+    own = {LaplacianDamping.kind: LaplacianDamping}
+    damping = tuple(
+        reader.one_of(own, x, f"damping {k}") for k, x in enumerate(tables(data, "damping"), 1)
+    )
+    for k, x in enumerate(damping, 1):
+        where = f"damping {k}, coefficient"
+        if any(isinstance(t, tuple) and t[0] == "fun" for t in nodes(x.coefficient)):
+            raise ProblemError(
+                f"{where}: on the torus it is made by + − * / and whole powers of parameters; "
+                "give a parameter in the place of a function"
+            )
+        if x.power in (y.power for y in damping[: k - 1]):
+            raise ProblemError(f"damping {k}: a second one of power {x.power}; add them up in one")
+    return inputs, damping
 
 
 # The values of the tables [algebra] and [[advected]] of a file.

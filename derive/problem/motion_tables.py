@@ -6,6 +6,8 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Mapping
+from fractions import Fraction
+from itertools import pairwise
 from typing import Any
 
 from ..algebra.factor_charts import chart_names
@@ -137,6 +139,10 @@ def _signals(data: Mapping[str, Any], start: Initial, reader: FileReader) -> tup
         if len(x.times or ()) != len(x.samples or ()):
             count = f"{len(x.times or ())} times and {len(x.samples or ())} values"
             raise ProblemError(f"{where}: {count}; give a value for each time")
+        for k, (a, b) in enumerate(pairwise(x.times or ()), 2):
+            if isinstance(a, int | Fraction) and isinstance(b, int | Fraction) and b <= a:
+                told = f"{float(b):g} does not come after {float(a):g}"
+                raise ProblemError(f"{where}, times, number {k}: {told}")
         for t in x.trees():
             _require_declared(t, where, reader, "t" if x.u is not None else "")
         found.append(x)
@@ -281,9 +287,11 @@ def numbers_followed(problem: Problem, group: Group) -> list[str]:
 def named_twice(problem: Problem) -> str:
     """That a number of the state is a parameter, or one of an input, or a signal that of none, in
     words; "" where none is."""
-    if problem.group is None:
+    if problem.group is None and problem.torus is None:
         return ""
-    state = {*numbers_of_state(problem, problem.group), *names_by_block(problem.group).values()}
+    group = problem.group
+    state = {*numbers_of_state(problem, group), *names_by_block(group).values()} if group else set()
+    state |= {*problem.torus.coefficients} if problem.torus else set()
     if clash := next(filter(state.__contains__, problem.parameters), ""):
         return f"parameter {clash!r}: a number of the state; choose another name"
     for k, x in enumerate(problem.inputs, 1):
@@ -293,7 +301,7 @@ def named_twice(problem: Problem) -> str:
     inputs = [name for x in problem.inputs for name in problem.numbers_of(x)]
     for k, z in enumerate(problem.signals, 1):
         if z.input not in inputs:
-            near = nearest(z.input, inputs) or f"; there is {', '.join(inputs)}"
+            near = nearest(z.input, inputs) or f"; there is {entries(inputs)}"
             return f"signal {k}: no number of an input {z.input!r}{near}"
     acting = [
         (f"force {k}, {x.name!r}", (x.name or "", *x.numbers()))

@@ -19,6 +19,7 @@ from ..schema.force_kinds import (
     Flow,
     ForceInput,
     Input,
+    LaplacianDamping,
     StatedCovector,
     StatedForce,
     TorqueInput,
@@ -59,7 +60,8 @@ class Problem:
     ``lagrangian``: one that no points give; the group then acts by matrices on (r, 1).
     ``advected``: what the algebra carries along, where the state has no element of the group; the
     last blocks of the group's matrices. ``fluid``: of a problem whose group has no matrices.
-    ``torus``: su(N) in the basis of the torus, where there is no table of the group.
+    ``torus``: su(N) in the basis of the torus, where there is no table of the group; ``decay``: the
+    damping of its modes.
     ``flows``: of mass that leaves or comes; how it pushes is among ``forces``.
     ``kinematics``: ġ as a function of g, where there is no Lagrangian.
     ``initial``, ``events``, ``signals``: of motions that are followed; the record of the equations
@@ -83,6 +85,7 @@ class Problem:
     lagrangian: Lagrangian | None = None
     advected: tuple[Advected, ...] | None = None
     torus: TorusLattice | None = None
+    decay: tuple[LaplacianDamping, ...] = ()
     fluid: Fluid | None = None
     flows: tuple[Flow, ...] = ()
     kinematics: Kinematics | None = None
@@ -130,9 +133,14 @@ class Problem:
     def unsearched(self) -> str:
         """Why nothing is searched for in a problem without a group of matrices, for messages."""
         if self.torus:
+            why = (
+                f"; how the energy and Tr Wᵏ change by what acts: step {self.name}.power"
+                if self.inputs or self.decay
+                else f", which keeps the energy and Tr Wᵏ: step {self.name}.conserved"
+            )
             return (
                 f"{self.name}: symmetries, integrals, equilibria and reductions are not written "
-                f"for the torus, which keeps the energy and Tr Wᵏ: step {self.name}.conserved"
+                f"for the torus{why}"
             )
         if self.kinematics:
             return (
@@ -229,6 +237,8 @@ class Problem:
 
     def numbers_of(self, x: Input) -> list[str]:
         """The names of the numbers of an input."""
+        if self.torus:
+            return [f"{x.name}_{coefficient}" for coefficient in self.torus.coefficients]
         size = self.own_group.dimension
         if isinstance(x, ForceInput | TorqueInput):
             size = self.acted_on(x)[1].n
@@ -281,7 +291,7 @@ def data(problem: Problem) -> dict[str, Any]:
         "potentials": [*_plain(problem.potentials)],
         "inputs": [*_plain(problem.inputs)],
         "places": [*_plain(problem.places)],
-        "damping": [*_plain(problem.damping)],
+        "damping": [*_plain((*problem.damping, *problem.decay))],
         **({"forces": [*_plain(problem.stated_forces)]} if problem.stated_forces else {}),
         **({"flows": [*_plain(problem.flows)]} if problem.flows else {}),
         **({"outputs": [*_plain(problem.outputs)]} if problem.outputs else {}),

@@ -119,7 +119,7 @@ def problem_of(
     """
     reader = FileReader(folder)
     reader.known(data, TOP, "file")
-    if found := _without_group(data, reader):
+    if found := _without_group(data, reader, negative_stiffness):
         return found
     moved, action = group_of(data, reader)
     reader.moves(moved)
@@ -167,12 +167,18 @@ def problem_of(
     return problem
 
 
-def _without_group(data: Mapping[str, Any], reader: FileReader) -> Problem | None:
+def _without_group(
+    data: Mapping[str, Any], reader: FileReader, negative_stiffness: bool
+) -> Problem | None:
     """A fluid, or what moves on an algebra; ``None`` for the problem of a group."""
     if "fluid" in data:
         return _fluid(data, reader)
     if on_torus(data):
-        return torus_problem(data, reader)
+        found = torus_problem(data, reader, _parameters(data.get("parameters", {}), reader))
+        if not negative_stiffness:
+            _positive(negative_stiffness_of((), found.decay, found.parameters), "stiffness")
+        _declared(found, data)
+        return found
     if "algebra" in data:
         return _without_points(data, *group_of_algebra(data))
     if "advected" in data:
@@ -196,6 +202,8 @@ def _fluid(data: Mapping[str, Any], reader: FileReader) -> Problem:
             raise ProblemError(
                 f"key {key!r}: [fluid] says all of the problem; leave this out"
                 + '; a force of the place is forces = "potential" there' * acts
+                + '; forcing and damping are on the torus, [algebra] of = "torus"'
+                * (key in ("input", "damping"))
             )
     name = reader.name_of(data)
     if not isinstance(data["fluid"], dict):
@@ -393,8 +401,8 @@ def _moments(problem: Problem) -> list[Tree]:
 
 def _forces(problem: Problem) -> list[Tree]:
     lagrangian = [problem.lagrangian] if problem.lagrangian else []
-    outside = (*problem.inputs, *problem.damping, *problem.forces, *problem.outputs)
-    return _trees((*lagrangian, *problem.potentials, *outside, *problem.places))
+    outside = (*problem.inputs, *problem.damping, *problem.decay, *problem.forces)
+    return _trees((*lagrangian, *problem.potentials, *outside, *problem.outputs, *problem.places))
 
 
 def _affordable(problem: Problem) -> None:
@@ -423,7 +431,7 @@ def doubts(p: Problem, given: Mapping[str, float], *, followed: bool = False) ->
     values = {k: replace(x, default=given.get(k, x.default)) for k, x in p.parameters.items()}
     negative = (
         negative_mass(p.body, values),
-        negative_stiffness_of(p.potentials, p.damping, values),
+        negative_stiffness_of(p.potentials, (*p.damping, *p.decay), values),
     )
     yield from (f"{where} is negative" for where in negative if where)
     if p.group and not p.signed and (why := impossible(p.group, p.body, values)):

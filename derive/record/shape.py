@@ -16,7 +16,15 @@ from ..language.limits import BASIS, CARRIED, LAYERS, TORUS
 from ..language.reserved import acting_in, taken
 from ..language.tree import Tree, nodes, operands, replaced
 from ..schema.body_kinds import BODIES, LAYERED, SOLIDS, Place, Solid, is_ellipsoid
-from ..schema.force_kinds import INPUTS, Acting, Damping, Flow, StatedCovector, StatedForce
+from ..schema.force_kinds import (
+    INPUTS,
+    Acting,
+    Damping,
+    Flow,
+    LaplacianDamping,
+    StatedCovector,
+    StatedForce,
+)
 from ..schema.kind import GROUP, Advected, Fluid, Kinematics, Lagrangian, Torus
 from ..schema.motion_kinds import OF_MASSES, OUTPUTS
 from ..schema.potential_kinds import kinds
@@ -67,7 +75,7 @@ class _RecordReader(TableReader):
         self.each("potentials", partial(self.one_of, kinds()))
         inputs = self.each("inputs", partial(self.one_of, INPUTS))
         self.distinct(inputs, data["parameters"])
-        self.each("damping", partial(self.typed, Damping))
+        self.each("damping", self.damped)
         forces: list[Any] = self.each("forces", self.acting, optional=True)
         forces += self.each("flows", self.flow, optional=True)
         outputs = self.each("outputs", partial(self.one_of, OUTPUTS), optional=True)
@@ -103,6 +111,12 @@ class _RecordReader(TableReader):
             return self.typed(StatedCovector, data, where)
         return self.typed(StatedForce, data, where)
 
+    def damped(self, data: Any, where: str) -> Damping | LaplacianDamping:
+        """A damping, of points or of the modes of a fluid on the torus."""
+        if "torus" in self.data:
+            return self.one_of({LaplacianDamping.kind: LaplacianDamping}, data, where)
+        return self.typed(Damping, data, where)
+
     def flow(self, data: Any, where: str) -> Flow:
         """Mass that flows, as inputs say, too; that of the state is one of the parameters."""
         self.flowing = True
@@ -136,7 +150,8 @@ class _RecordReader(TableReader):
             raise ShapeError("advected, torus: they are of a problem with a Lagrangian of its own")
         if "lagrangian" not in data:
             return
-        if key := next((x for x in ("potentials", "damping", "flows") if data.get(x)), ""):
+        beside = ("potentials", "flows", *(() if "torus" in data else ("damping",)))
+        if key := next((x for x in beside if data.get(x)), ""):
             raise ShapeError(f"lagrangian: it says all of L; {key} must be empty")
         if on_algebra:
             self.covectors_alone()
@@ -147,6 +162,10 @@ class _RecordReader(TableReader):
             self.typed(Lagrangian, data["lagrangian"], "lagrangian")
             return
         self.typed(Torus, data["torus"], "torus")
+        if [x["kind"] for x in data["inputs"]] not in ([], ["covector"]):
+            raise ShapeError("torus: its input is one covector")
+        if absent := next((x for x in ("forces", "outputs") if data.get(x)), ""):
+            raise ShapeError(f"torus: inputs and damping act on it; {absent} must be empty")
         if data["lagrangian"] != {"trivialisation": "right"} or "advected" in data:
             raise ShapeError("lagrangian: that of the torus is told by its steps, on the right")
 

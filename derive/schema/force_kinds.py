@@ -255,11 +255,13 @@ class Damping(Nameable):
         block: int | None = None,
         kind: str | None = None,
         name: str | None = None,
+        power: int | None = None,
     ) -> Any:
         """The force −κ v on points (all by default), or on a place of the body, in a product of
         that of a block, outside dϖ; "quadratic", −κ ‖v‖ v; "rotational", the moment −κ ω; with a
-        name in the equations, where it acts at one place."""
-        told = {"name": name, "kind": kind, "coefficient": coefficient}
+        name in the equations, where it acts at one place. On the torus "laplacian", −κ (−Δ)ᵖ ω, p
+        the ``power``."""
+        told = {"name": name, "kind": kind, "coefficient": coefficient, "power": power}
         return told | {"on": on, "at": at, "block": block}
 
 
@@ -277,6 +279,15 @@ class RotationalDamping(Nameable):
     kind, section = "rotational", "damping"
     coefficient: Stiffness
     block: TurningBlock
+
+
+class LaplacianDamping(Table):
+    """−κ (−Δ)ᵖ ω of the vorticity ω of a fluid on the torus, −κ ‖n‖²ᵖ ω̂(n), p the ``power``: 0 is
+    the drag of Ekman, 1 viscosity, more hyperviscosity."""
+
+    kind, section = "laplacian", "damping"
+    coefficient: Stiffness
+    power: Annotated[int, Key("order")] = 0
 
 
 AnyDamping = Damping | QuadraticDamping | RotationalDamping

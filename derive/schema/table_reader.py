@@ -10,7 +10,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Callable, Collection, Mapping, Sequence
 from typing import Any, ClassVar, TypeVar
 
-from ..language.limits import MAGNITUDE, SAMPLES, TEXT, TORUS
+from ..language.limits import HYPERVISCOSITY, MAGNITUDE, SAMPLES, TEXT, TORUS
 from ..language.reserved import COLUMNS, WORDS, numbers_of_input, taken
 from ..language.tree import Tree
 from .force_kinds import Acting, Input
@@ -245,6 +245,10 @@ class TableReader(ABC):
         if found % 2 == 0:
             raise self.fail(f"{slot.path}: {found} is even; the basis of the torus has an odd N")
         return found
+
+    def order(self, slot: Slot) -> int:
+        """The power of a Laplacian."""
+        return self.integer(self.value(slot), 0, HYPERVISCOSITY, slot.path)
 
     def block(self, slot: Slot) -> int:
         """The factor of a product, counted from 1; without a product there is one."""

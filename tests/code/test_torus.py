@@ -13,6 +13,7 @@ from derive.pipeline import walk
 from derive.problem.toml import problem_of
 from derive.programs import program
 from tests.oracles import relative_error, torus
+from tests.support.corpus import STIRRED
 from tests.support.library import ONE_BUILD, STEPPED, built, emission, library, module_of
 from tests.support.needs import CC, need
 
@@ -21,8 +22,22 @@ SIZES = (3, 9, 31, 5, 7, 11)
 
 @cache
 def fluid(N):
+    return problem_of(told(N))
+
+
+def told(N):
     algebra, inertia = {"of": "torus", "N": N}, {"operator": "laplacian"}
-    return problem_of({"name": f"fluid{N}", "algebra": algebra, "inertia": inertia})
+    return {"name": f"fluid{N}", "algebra": algebra, "inertia": inertia}
+
+
+@cache
+def stirred(N):
+    return problem_of(told(N) | STIRRED)
+
+
+def drag(N, kappa, nu):
+    """κ + ν|n|⁴ for each number of the state."""
+    return np.array([kappa + nu * (a * a + b * b) ** 2 for a, b in torus.half_plane(N)]).repeat(2)
 
 
 def close(found, expected):
@@ -50,6 +65,55 @@ def test_c_python_and_plain_sums_agree(N):
         "im_1_0",
         *(("re_m1_1", "im_m1_1") if N == 3 else m.STATE[2:4]),
     )
+
+
+@pytest.mark.parametrize("N", SIZES)
+def test_forcing_and_drag_are_added_to_plain_sums(N):
+    need("cc")
+    m, c = module_of(stirred(N)), library("c", stirred(N))
+    x, u = np.random.default_rng(N).normal(size=(2, N * N - 1))
+    k, (status, in_c) = m.constants({"nu": 0.07, "kappa": 0.4}), c.constants(np.array([0.4, 0.07]))
+    assert status == 0
+    still = torus.rates(N, x) - drag(N, 0.4, 0.07) * x
+    close(m.rhs(0.0, x, k, u), still + u)
+    close(c.rhs(0.0, x, in_c, u), still + u)
+    close(m.rhs(0.0, x, k), still)
+    several = np.stack([x, -x, x[::-1]], axis=-1), np.stack([u, u[::-1], 3 * u], axis=-1)
+    found = c.rhs_batch(0.0, several[0], in_c, several[1]).T
+    close(found, m.rhs(0.0, several[0].T, k, several[1].T))
+    assert m.PARAMETERS == ("kappa", "nu")
+    assert m.INPUTS[:2] == ("f_re_1_0", "f_im_1_0")
+
+
+@pytest.mark.parametrize("N", [5, 9])
+def test_one_wave_that_is_forced_goes_to_rest_against_drag(N):
+    """x(t) = x₀ e^(−λt) + u (1 − e^(−λt))/λ, as one wave alone is steady in Euler's equation."""
+    m = module_of(stirred(N))
+    x, u = np.zeros((2, N * N - 1))
+    x[m.STATE.index("im_2_1")], u[m.INPUTS.index("f_im_2_1")] = 0.7, -0.3
+    k, rate = m.constants([0.3, 0.02]), 0.3 + 0.02 * 25
+    path = solve_ivp(m.rhs, (0, 2), x, "DOP853", args=(k, u), rtol=1e-12, atol=1e-14)
+    left = np.exp(-2 * rate)
+    assert np.abs(path.y[:, -1] - x * left - u * (1 - left) / rate).max() < 1e-11
+
+
+@pytest.mark.parametrize("N", [5, 9])
+def test_the_energy_changes_by_the_power_of_what_acts(N):
+    """Along a motion the energy less the integral of Σ f̄ω/|n|² − Σ (κ + ν|n|⁴)|ω|²/|n|² stays."""
+    m = module_of(stirred(N))
+    rng = np.random.default_rng(2)
+    x, u = rng.normal(size=(2, N * N - 1)) / N
+    k, squares = m.constants([0.3, 0.02]), drag(N, 0, 1) ** 0.5
+
+    def both(t, y):
+        power = 2 * np.sum((u - drag(N, 0.3, 0.02) * y[:-1]) * y[:-1] / squares)
+        return [*m.rhs(t, y[:-1], k, u), power]
+
+    path = solve_ivp(both, (0, 4), [*x, 0.0], "DOP853", rtol=1e-12, atol=1e-13)
+    last = path.y[:, -1]
+    done = torus.energy(N, last[:-1]) - torus.energy(N, x)
+    assert abs(done) > 1e-2
+    assert abs(done - last[-1]) < 1e-9
 
 
 def test_floats():

@@ -374,6 +374,7 @@ SLOWED_CODE = LANDER_CODE.replace(
     "    gyroscopic =",
     f"""    D_hat, Z = np.array({DAMPED_AS_A_WHOLE}), np.zeros((3, 3))
     turn, nu = np.block([[A, Z], [Z, A]]), np.concatenate([w, v])
+    half = np.block([[np.eye(3), Z], [Z, A]])
     load -= D_hat @ nu
     gyroscopic =""",
 )

@@ -287,6 +287,21 @@ FAULTS = {
         ("D_hat @ nu", "D_hat @ turn @ nu"),
         "the velocity in the covector is along the axes of space instead",
     ),
+    "v of space in a tensor of damping": (
+        "slowed",
+        ("D_hat @ nu", "D_hat @ half @ nu"),
+        "v in the covector is along the axes of space instead",
+    ),
+    "ω of space in a tensor of damping": (
+        "slowed",
+        ("D_hat @ nu", "D_hat @ half.T @ turn @ nu"),
+        "ω in the covector is along the axes of space instead",
+    ),
+    "a tensor of damping along the axes of space in its part of v": (
+        "slowed",
+        ("D_hat @ nu", "half.T @ D_hat @ half @ nu"),
+        "v and the force in the covector are along the axes of space instead",
+    ),
     "one tensor of two along the axes of space, that of a moment of its own": (
         "finned",
         ("turned @ w", "A.T @ turned @ A @ w"),

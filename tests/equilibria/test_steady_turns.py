@@ -104,6 +104,32 @@ def test_on_the_right_the_motion_turns_the_body():
     assert holds(found)
 
 
+@pytest.mark.parametrize(
+    ("group", "turn", "shift"), [("SE(2)", "zeta_1", "eta_2"), ("SE(3)", "zeta_3", "eta_4")]
+)
+@pytest.mark.parametrize("rate", [1, Fraction(1, 2)])
+def test_the_place_of_a_body_that_is_slung_round(group, turn, shift, rate):
+    """On a spring of stiffness k and length 1 at the distance r where m Ω² r = k (r − 1)."""
+    n = int(group[3])
+    inertia = 1 if n == 2 else np.diag([2, 3, 4]).tolist()
+    data = {"name": "slung", "group": group}
+    data["body"] = {"given": {"m": 2, "centre": [0] * n, "I_centre": inertia}}
+    spring = {"kind": "spring", "at": [0] * n, "anchor": [0] * n, "stiffness": 8, "length": 1}
+    found = derive(problem_of(data | {"potential": [spring]})).trim(
+        {"T_1": 2}, [shift], along={turn: rate}
+    )
+    r = Fraction(8) / (8 - 2 * rate**2)
+    assert found.found.state["T_1"] == r
+    assert found.found.state["w_2"] == rate * r
+    assert holds(found)
+
+
+def test_of_a_place_in_free_air_any_will_do():
+    told = "many trims: no rate changes with eta_4, eta_6, of which any will do; leave that out"
+    with pytest.raises(ProblemError, match=told):
+        derive(falling(10)).trim({}, ["eta_4", "eta_6", *NAMES])
+
+
 def test_what_acts_must_be_the_same_along_it():
     made = derive(lagrangian("(zeta_1^2 + 2*zeta_2^2 + 3*zeta_3^2)/2 - A_33"))
     with pytest.raises(ProblemError, match="no steady motion is proved"):

@@ -272,7 +272,7 @@ def test_that_others_turn_as_well_is_refused():
     ("free", "message"),
     [
         (["A_11"], "turns from there, as eta_1, are found"),
-        (["eta_9"], "did you mean 'eta_3'"),
+        (["eta_9"], "did you mean 'eta_6'"),
         (["eta_1", "f"], "no trim is found: .* for f, g, or free others"),
     ],
 )

@@ -47,6 +47,7 @@ from derive.views.answer import definitions, equations_of_motion
 from derive.views.language import LANGUAGES, language
 from derive.views.outline import title
 from derive.views.printing.signs import tex_text
+from tests.support import corpus
 from tests.support.lectures import by_itself
 from tests.support.walks import SEED
 
@@ -530,6 +531,11 @@ def test_what_ready_made_problems_are_refused_for_is_in_french(name):
             RECORDS[search](problem, record)
         told = str(refused.value).removeprefix(f"{name}: ")
         assert told_reason(told, language("fr")) != told
+
+
+def test_what_a_driven_fluid_is_refused_for_is_in_french():
+    driven = corpus.stirred_torus(3)
+    assert told_reason(driven.unsearched.removeprefix("fluid: "), language("fr")).startswith("sym")
 
 
 def test_searches_refused_for_one_reason_stand_together(made):

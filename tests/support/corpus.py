@@ -249,10 +249,31 @@ def symmetries_of(name):
 TORI = ("3", "5", "7", "9", "13")
 
 
+STIRRED = {
+    "parameters": {"kappa": 0.3, "nu": 0.02},
+    "input": [{"kind": "covector", "name": "f"}],
+    "damping": [
+        {"kind": "laplacian", "coefficient": "kappa"},
+        {"kind": "laplacian", "coefficient": "nu", "power": 2},
+    ],
+}
+"""An input, drag and hyperviscosity of a fluid on the torus."""
+
+
 def on_the_torus(N):
     """Zeitlin's model of this size."""
+    return walk(problem_of(fluid(N)))
+
+
+def stirred_torus(N):
+    """The same, forced and damped."""
+    return problem_of(fluid(N) | STIRRED)
+
+
+def fluid(N):
+    """A file of this model."""
     algebra, inertia = {"of": "torus", "N": int(N)}, {"operator": "laplacian"}
-    return walk(problem_of({"name": "fluid", "algebra": algebra, "inertia": inertia}))
+    return {"name": "fluid", "algebra": algebra, "inertia": inertia}
 
 
 def in_a_field():
@@ -280,7 +301,8 @@ ROADS = {
     "signed": walked({x: partial(of_masses, *y, negative_mass=True) for x, y in SIGNED.items()}),
     "ellipsoid": walked(ELLIPSOIDS),
     "lagrangian": walked(LAGRANGIANS),
-    "torus": {x: partial(on_the_torus, x) for x in TORI},
+    "torus": {x: partial(on_the_torus, x) for x in TORI}
+    | {"stirred": lambda: walk(stirred_torus(5))},
     "discrete": {x: partial(in_steps, x) for x in (*STEPPED, *DRIVEN_ON)},
     "symmetries": {x: lambda x=x: symmetries_of(x).record for x in (*symmetric.FILES, *SYMMETRIC)},
     "reduced": {x: lambda x=x: reduced.reduced(x).record for x in (*reduced.FILES, *reduced.LONG)},

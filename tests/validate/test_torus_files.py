@@ -27,6 +27,7 @@ from derive.validate.torus.torus_files import (
     compare_loops,
     cosine,
 )
+from tests.support.corpus import STIRRED
 from tests.support.emitted_files import ENDS, Emission
 from tests.support.needs import CC, need
 from tests.support.read_julia import Module, Numbers
@@ -47,6 +48,58 @@ def emission(N, languages=("c", "python"), **chosen):
     algebra, inertia = {"of": "torus", "N": N}, {"operator": "laplacian"}
     data = {"name": "fluid", "algebra": algebra, "inertia": inertia}
     return Emission(data, languages, **({"conserved": True} | chosen))
+
+
+LANGUAGES = ("c", "python", "julia", "rust", "javascript")
+
+
+@cache
+def stirred(N):
+    algebra, inertia = {"of": "torus", "N": N}, {"operator": "laplacian"}
+    data = {"name": "fluid", "algebra": algebra, "inertia": inertia, **STIRRED}
+    return Emission(data, LANGUAGES, conserved=True)
+
+
+@pytest.mark.parametrize("N", [3, 7, 11])
+def test_forcing_and_drag_equal_the_record(N):
+    reports = stirred(N).reports(fresh=stirred(N).files)
+    assert len(reports) == len(LANGUAGES)
+    for report in reports:
+        assert report.holds, report.text
+    assert "rhs_batch" in reports[0].text
+
+
+OF_STIRRED = [
+    ("fluid.c", "dx[at] += u[at];", "dx[at] -= u[at];"),
+    ("fluid.c", "k[3 - 1 - p]", "k[p]"),
+    ("fluid.c", "drag*x[at + 1]", "drag*x[at]"),
+    ("fluid.c", "held[i] = u[i*n + s];", "held[i] = u[i];"),
+    ("fluid.c", "k[2] = nu;", "k[2] = kappa;"),
+    ("fluid.c", '    "kappa",\n    "nu",', '    "nu",\n    "kappa",'),
+    ("fluid.rs", "dx[at] += u[at];", "dx[at] += u[at + 1];"),
+    ("fluid.jl", "drag * x[at + 1]", "drag * x[at + 2]"),
+    ("fluid.mjs", "dx[at] += u[at];", ""),
+    ("fluid.mjs", '"f_re_1_0", "f_im_1_0"', '"f_im_1_0", "f_re_1_0"'),
+    ("fluid.py", '"f_re_1_0",\n    "f_im_1_0"', '"f_im_1_0",\n    "f_re_1_0"'),
+    ("fluid.py", "rates - drag * omega", "rates + drag * omega"),
+    ("fluid.py", "1j * u[..., 1::2]", "1j * u[..., 0::2]"),
+    ("fluid.py", "drag * squares + k[..., 0, None]", "drag * squares"),
+]
+
+
+@pytest.mark.parametrize(("name", "old", "new"), OF_STIRRED)
+def test_other_forcing_and_drag_are_refused(name, old, new):
+    made = stirred(11)
+    assert made.files[name].count(old) == 1
+    text = made.files[name].replace(old, new)
+    known = TorusClaims(made.record, "", made.program.numbers())
+    judge = (
+        (lambda: agreement_of_module(run(text), known))
+        if name.endswith(".py")
+        else (lambda: compare_loops(name, made.files | {name: text}, "fluid", known))
+    )
+    with pytest.raises(CodeError):
+        judge()
 
 
 @cache

@@ -139,7 +139,7 @@ OF_THE_CORPUS = [
     *(f"{'forces' if x.endswith('forces') else 'points'} {x}" for x in CHOSEN),
     *(f"symmetries {x}" for x in symmetric.FILES),
     *(f"symmetries {x}" for x in ("heisenberg", "riemann_ellipsoid", "screw")),
-    "symmetries spherical_pendulum",
+    *("symmetries spherical_pendulum", "torus stirred"),
     *(f"reduced {x}" for x in ("lagrange_top", "charged_body", "flat", "steep", "rod", "so3")),
     *(f"discrete {x}" for x in ("so3", "se3", "sl3", "gl3", "sp4", "GL(3)", "SE(3)")),
     *("torus 3", "fluid well"),

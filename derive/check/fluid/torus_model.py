@@ -19,6 +19,7 @@ from ...algebra.structure import Place, TorusLattice
 from ...language import rational as q
 from ...language.rational import Matrix
 from ...language.tree import Tree
+from ...record.as_json import decode
 from ..values.arithmetic import EvaluationError
 from ..values.evaluate import Environment, evaluate
 from ..values.residue import DegreeSource, _residue
@@ -45,9 +46,18 @@ value at s."""
 
 class TorusModel:
     """One point: ζ(n) at random, and with it W, P, Z and Π; ``free``: is Ẇ any, not that of the
-    motion?"""
+    motion?  ``problem``: what acts from outside, in steps that are ``driven``."""
 
-    def __init__(self, torus: TorusLattice, source: Source, size: int, *, free: bool = False):
+    def __init__(
+        self,
+        torus: TorusLattice,
+        source: Source,
+        size: int,
+        *,
+        free: bool = False,
+        problem: Mapping[str, Any] | None = None,
+        driven: bool = False,
+    ):
         graded = isinstance(source, DegreeSource)
         self.torus = torus = TorusLattice(LEAST) if graded else torus
         assert graded or isinstance(source, Random)
@@ -63,7 +73,15 @@ class TorusModel:
         self.Z = q.scaled(self.scale, self.matrix(self.grid(self.zeta)))
         self.W = self.matrix(self.grid(self.vorticity))
         self.P = q.scaled(-1 / self.scale, self.Z)
+        told = problem or {}
+        self.parameters = {name: self.draw() for name in told.get("parameters", ())}
+        self.input = {n: self.draw() for n in torus.places} if told.get("inputs") else None
+        self.damping = told.get("damping", ())
         self.rate = q.minus(q.times(self.Z, self.W), q.times(self.W, self.Z))
+        self.forcing: Matrix | None = None
+        if driven:
+            self.forcing = self.matrix(self.grid({n: self.acting(n) for n in torus.places}))
+            self.rate = q.plus(self.rate, self.forcing)
         if free:
             self.rate = self.matrix(self.grid({n: self.draw() for n in torus.places}))
 
@@ -87,6 +105,20 @@ class TorusModel:
         a, b = n
         other = (-a, -b)
         return sum((self.zeta[n] * Fraction(x * x + y * y, 2) for x, y in (n, other)), Fraction(0))
+
+    def acting(self, n: Place) -> Any:
+        """What is added to the rate of ω̂(n) from outside."""
+        total = self.input[n] if self.input else Fraction(0)
+        env = Environment(self.torus.N, {}, parameters=self.parameters)
+        for x in self.damping:
+            size = Fraction(n[0] ** 2 + n[1] ** 2) ** x["power"]
+            kappa = evaluate(decode(x["coefficient"], "damping"), env)
+            total = total - kappa * self.vorticity[n] * size
+        return total
+
+    def input_grid(self) -> Matrix:
+        """f̂(n) as a matrix over n modulo N."""
+        return self.grid(self.input or {})
 
     def fourier(self, sign: int) -> Matrix:
         """e^(± 2πi jk/N) in row j and column k: the discrete Fourier transform."""
@@ -193,7 +225,6 @@ def _environment(model: TorusModel, W: Matrix) -> Environment:
         return model.basis(n) if isinstance(n, tuple) else Elements(model, [LatticeTerm(n)])
 
     vorticity = _of_grid(model, coefficients)
-
     zeta = _of_grid(model, cache(lambda: model.grid(model.zeta)))
 
     @cache
@@ -207,6 +238,14 @@ def _environment(model: TorusModel, W: Matrix) -> Environment:
             total = total + evaluate(a[0], replace(there, indices=env.indices)) * weight
         return total
 
+    functions = {
+        "T": of_place(basis),
+        "ω̂": of_place(vorticity),
+        "ζ": of_place(zeta),
+        "d/dt": rate,
+    }
+    if model.input is not None:
+        functions["f̂"] = of_place(_of_grid(model, model.input_grid))
     names: dict[str, Any] = {
         "i": model.roots.i,
         "π": model.pi,
@@ -215,7 +254,7 @@ def _environment(model: TorusModel, W: Matrix) -> Environment:
         "P": model.P,
         "Ẇ": model.rate,
         "Π": q.scaled(1 / (model.scale * N), q.transposed(W)),
-    }
+    } | ({} if model.forcing is None else {"F": model.forcing})
     return Environment(
         N,
         _Lazily(
@@ -225,12 +264,8 @@ def _environment(model: TorusModel, W: Matrix) -> Environment:
                 "L̃": lambda: _half_square(torus, zeta, 1),
             },
         ),
-        functions={
-            "T": of_place(basis),
-            "ω̂": of_place(vorticity),
-            "ζ": of_place(zeta),
-            "d/dt": rate,
-        },
+        parameters=model.parameters,
+        functions=functions,
         elementary=model.elementary,
         lattice=torus.places,
         at_once=None if model.graded else model.all_places,

@@ -47,7 +47,7 @@ SITE = ArgumentKind(
     ),
 )
 COORDINATE = ArgumentKind("a coordinate of a point of the lattice", (*range(-2, 3),))
-NUMBERED = {"ω̂": (COORDINATE, COORDINATE)}
+NUMBERED = dict.fromkeys(("ω̂", "f̂"), (COORDINATE, COORDINATE))
 """The functions of the lattice that may be taken at a point by its coordinates, which are small."""
 ON_TORUS: tuple[Tree, ...] = (
     *("h̃", ("call", "ω̂", "𝐧")),
@@ -109,7 +109,7 @@ HEADS: dict[str, tuple[ArgumentKind, ...]] = {
     "ϖ_h": (VARIATION,),
     "dϖ_h": (VARIATION, VARIATION),
     **dict.fromkeys(("Ψ", "Ψ_0", "Ψ_1", "Ψ_2"), INVARIANTS),
-    **dict.fromkeys(("T", "ω̂", "ζ"), (SITE,)),
+    **dict.fromkeys(("T", "ω̂", "f̂", "ζ"), (SITE,)),
 }
 """The kinds of the arguments of each function; TRANSLATION is left out for a group that does not
 translate."""

@@ -344,7 +344,12 @@ class TrialPoints:
         """A random model at which the hypotheses of a step hold, and its names."""
         if "torus" in self.problem and not generic:
             fluid: Any = torus_model.TorusModel(
-                torus_of(self.problem), source, size, free=at.free_acceleration
+                torus_of(self.problem),
+                source,
+                size,
+                free=at.free_acceleration,
+                problem=self.problem,
+                driven=at.driven,
             )
             return fluid, torus_model.environment(fluid)
         if "kinematics" in self.problem:

@@ -156,7 +156,7 @@ def row(
 
 
 def rhs(t: real, x: real[N_STATE], k: real[N_CONSTANTS], u: real[N_INPUTS], dx: out[real[N_STATE]]):
-    """N/(4 pi i) [W, P]."""
+    """N/(4 pi i) [W, P], and what acts from outside: damping by powers of |n|^2, and the input."""
     W_re: real[N, ROW]
     W_im: real[N, ROW]
     P_re: real[N, ROW]
@@ -208,6 +208,15 @@ def rhs(t: real, x: real[N_STATE], k: real[N_CONSTANTS], u: real[N_INPUTS], dx: 
             at: index = 2 * (d * N + j - M)
             dx[at] = SCALE * (found[d][1][size] - sign * found[d][2][size])
             dx[at + 1] = -SCALE * (found[d][0][size] + sign * found[d][3][size])
+            if DAMPED:
+                drag: var[real] = 0.0
+                for p in range(POWERS):
+                    drag = drag * real(d * d + size * size) + k[POWERS - 1 - p]
+                dx[at] -= drag * x[at]
+                dx[at + 1] -= drag * x[at + 1]
+            if DRIVEN:
+                dx[at] += u[at]
+                dx[at + 1] += u[at + 1]
 
 
 def energy(t: real, x: real[N_STATE], k: real[N_CONSTANTS]) -> real:

@@ -121,6 +121,15 @@ def _dependent(f: Rates, y: Sequence[float], numbers: Arithmetic) -> str:
     """What is said of a solution where derivatives are dependent: that there are others, where they
     are found; of a double root that it is one, and what is not proved."""
     if others := _others(f, y, numbers):
+        slopes = [row for at in (y, *others) for row in f.slopes(at, FLOATS)]
+        columns = zip(f.names, zip(*slopes, strict=True), strict=True)
+        largest = max(abs(x) for row in slopes for x in row)
+        idle = [name for name, x in columns if max(map(abs, x)) <= SMALL * largest]
+        if idle:
+            return (
+                f"many trims: no rate changes with {', '.join(idle)}, of which any will do; "
+                "leave that out of --free"
+            )
         free = len(y) - _rank(f, y)
         return (
             f"many trims: near {describe(f, y)} there are others, as {describe(f, others[0])}, to "

@@ -18,6 +18,7 @@ from ...code.program import Program
 from ...language import rational as q
 from ...language.intervals import characteristic, signs_of_real_parts
 from ...language.rational import Matrix
+from ...language.reserved import suffixed
 from ...language.tree import Tree
 from ...language.univariate import Number, grows, polynomial_tree, routh, tree
 from ...problem.fields import called_here, entries, state_names
@@ -57,7 +58,7 @@ class Question:
         self.places = entries_of(problem.own_group)
         self.require()
         velocity = program.state[-self.d :]
-        self.turns = {x.replace("zeta", "eta"): a for a, x in enumerate(velocity) if "zeta" in x}
+        self.turns = {suffixed("eta", a + 1): a for a in range(self.d)}
         own = program.by_block
         at = program.by_state(at, NoTrimError)
         free = [own.get(x, x) for x in free or ()]
@@ -439,7 +440,7 @@ def _named(name: str, group: Group, trim: Trim) -> Tree:
         i, j = places[name]
         return ("entry", "T", i + 1) if name.startswith("T_") else ("entry", "A", i + 1, j + 1)
     if name not in velocity:
-        return ("entry", "ξ", velocity.index(name.replace("eta", "zeta")) + 1)
+        return ("entry", "ξ", int(name.removeprefix("eta_")))
     a = velocity.index(name) + 1
     if name.startswith("w"):
         return ("entry", "w", a - len(velocity) + group.n)

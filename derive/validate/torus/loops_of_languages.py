@@ -180,7 +180,9 @@ class JuliaLoopReader(LoopReader):
         return tuple(body)
 
     def _do(self, body: list[Statement]) -> None:
-        if self.took("if"):
+        if self.took(*self.syntax.ignored):
+            pass
+        elif self.took("if"):
             body.append(self._branch())
         elif self.took("for"):
             body.append(self._repeat())

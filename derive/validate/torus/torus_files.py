@@ -27,6 +27,7 @@ from ...check.values.evaluate import evaluate
 from ...check.values.residue import Residue
 from ...language import rational as q
 from ...language.intervals import function, pi
+from ...language.tree import nodes
 from ...record.as_json import to_json
 from ...record.record import Derivation
 from ..compare import SIZE, Agreement
@@ -112,17 +113,27 @@ numbers of the state are multiplied at most, over π.  The degree of C is measur
 
 
 class TorusClaims:
-    """What a record says at one point, the state ``x``: ``rates``, ``energy``, ``traces``."""
+    """What a record says at one point, the state ``x``, with the inputs ``u`` and the
+    ``parameters`` by their names: ``rates``, ``energy``, ``traces``."""
 
     def __init__(self, d: Derivation, text: str, given: Iterable[Fraction] = ()):
         self.torus = torus_of(d.problem)
         drawn = hashlib.sha256((to_json(d) + text).encode("utf-8", "surrogatepass")).hexdigest()
-        self.model = TorusModel(self.torus, Random(drawn), SIZE)
+        motion = d["motion"]
+        self.model = TorusModel(
+            self.torus, Random(drawn), SIZE, problem=d.problem, driven=motion.driven
+        )
         self.p, env = self.model.roots.p, environment(self.model)
         self.number = ExactNumbers(self.model, tuple(given))
-        vorticity = d["motion"].equations[0]
+        vorticity = motion.equations[0]
         at = {n: i for i, n in enumerate(self.torus.places, 1)}
         self.x = self.parts({n: self.model.vorticity[n] for n in at})
+        numbers = self.parts(self.model.input) if self.model.input else []
+        called = [f"{x['name']}_{y}" for x in d.problem["inputs"] for y in self.names]
+        self.u = dict(zip(called, numbers, strict=True))
+        read = {x[1] for x in nodes(vorticity.rhs) if isinstance(x, tuple) and x[0] == "par"}
+        known = self.model.parameters.items()
+        self.parameters = {x: self.residue(value) for x, value in known if x in read}
         self.rates = self.parts(
             {n: evaluate(vorticity.rhs, env.with_index("𝐧", i)) for n, i in at.items()}
         )
@@ -154,8 +165,7 @@ class TorusClaims:
     @property
     def names(self) -> tuple[str, ...]:
         """Those of the state."""
-        places = ["_".join(str(x).replace("-", "m") for x in n) for n in self.torus.half_plane]
-        return tuple(f"{part}_{n}" for n in places for part in ("re", "im"))
+        return self.torus.coefficients
 
 
 Call = Callable[[str, Sequence[int]], Sequence[int]]
@@ -209,11 +219,11 @@ def compare_loops(
     module = text.module()
     reader = Loops(text, claims.p, claims.number, claims.elementary)
     dimension = len(claims.names)
-    _require_lists(module.state, module.sizes, dimension, claims)
+    _require_lists([module.state, module.parameters, module.inputs], module.sizes, claims)
     size = max(module.sizes["CONSTANTS"], 0)
-    k, none = Cells([size]), Cells([0])
-    if reader.call("constants", none, k):
-        raise DiffersError("constants: it refuses what has no parameters")
+    k = Cells([size])
+    if reader.call("constants", measured([*claims.parameters.values()]), k):
+        raise DiffersError("constants: it refuses numbers that it has no reason to")
     reader.written(k, size, "k")
     t = Measured(Random(claims.p).randrange(claims.p), 1)
 
@@ -222,7 +232,7 @@ def compare_loops(
         if f == "energy":
             return reader.numbers([reader.call(f, t, given, k)])
         if f == "rhs":
-            reader.call(f, t, given, k, none, out)
+            reader.call(f, t, given, k, measured([*claims.u.values()]), out)
         else:
             reader.call(f, t, given, k, out)
         return reader.written(out, dimension if f == "rhs" else len(POWERS), f)
@@ -251,21 +261,28 @@ def _compare_batch(reader: Loops, claims: TorusClaims, t: Any, k: Cells) -> None
     """
     p, random, size = claims.p, Random(claims.p), len(claims.x)
     weights = [random.randrange(p) for _ in claims.x]
+    few = len(claims.u)
 
     def stand_in(t: Any, x: Any, k: Any, u: Any, dx: Any) -> None:
         for i, w in enumerate(weights):
-            dx[i] = (w * x[i] * x[i] + t) % p
+            dx[i] = (w * x[i] * x[i] + t + (w * u[i % few] if few else 0)) % p
+
+    def drawn(count: int, numbers: int) -> list[list[int]]:
+        return [[random.randrange(p) for _ in range(numbers)] for _ in range(count)]
+
+    def side_by_side(rows: list[list[int]]) -> Cells:
+        return measured([x for row in zip(*rows, strict=True) for x in row])
 
     with reader.replaced("rhs", "rhs_batch", stand_in):
         for count in (1, 2, 3):
-            states = [[random.randrange(p) for _ in claims.x] for _ in range(count)]
-            both = measured([x for row in zip(*states, strict=True) for x in row])
-            out, none = Cells([count * size]), Cells([0])
-            reader.call("rhs_batch", count, t, both, k, none, out)
+            states, inputs = drawn(count, size), drawn(count, few)
+            out = Cells([count * size])
+            both = side_by_side(states), k, side_by_side(inputs), out
+            reader.call("rhs_batch", count, t, *both)
             rates = reader.written(out, count * size, "rhs_batch")
-            for s, x in enumerate(states):
+            for s, (x, u) in enumerate(zip(states, inputs, strict=True)):
                 one = Cells([size])
-                reader.call("rhs", t, measured(x), k, none, one)
+                reader.call("rhs", t, measured(x), k, measured(u), one)
                 if rates[s::count] != reader.written(one, size, "rhs"):
                     raise DiffersError("rhs_batch: a state of several has other rates than alone")
 
@@ -285,14 +302,17 @@ def agreement_of_module(module: Any, claims: TorusClaims) -> Agreement:
     module._Functions = lambda library: library
     library = ExactLibrary(claims.p, claims.number, claims.elementary)
 
-    sizes = {"STATE": len(module.STATE), "INPUTS": len(module.INPUTS)}
-    _require_lists(module.STATE, sizes, len(claims.names), claims)
+    _require_lists([module.STATE, module.PARAMETERS, module.INPUTS], {}, claims)
+    u = library.asarray([*claims.u.values()], object)
     try:
-        k = module.constants(library.asarray([]))
+        k = module.constants(library.asarray([*claims.parameters.values()], object))
 
         def call(f: str, x: Sequence[int]) -> Sequence[int]:
             given = (library.asarray(y, object) for y in (x, [x[::-1], x]))
-            found, several = (library.asarray(getattr(module, f)(0.0, y, k)) for y in given)
+            acting = [u] if f == "rhs" and claims.u else []
+            found, several = (
+                library.asarray(getattr(module, f)(0.0, y, k, *acting)) for y in given
+            )
             parts = [(z.re, z.im) for z in found.ravel()]
             if any(im for _, im in parts):
                 raise DiffersError(f"{f}: it is not real")
@@ -309,12 +329,20 @@ def agreement_of_module(module: Any, claims: TorusClaims) -> Agreement:
 
 
 def _require_lists(
-    state: Sequence[str] | None, sizes: Mapping[str, int], dimension: int, claims: TorusClaims
+    found: Sequence[Sequence[str] | None], sizes: Mapping[str, int], claims: TorusClaims
 ) -> None:
-    """``DiffersError`` where the names of the state or the sizes are others."""
-    if state is not None and tuple(state) != claims.names:
-        raise DiffersError("the names of the state are not those of the record")
-    wanted = {"STATE": dimension, "ALGEBRA": dimension, "PARAMETERS": 0, "INPUTS": 0}
+    """``DiffersError`` where the names of the state, the parameters, the inputs, or the sizes are
+    others."""
+    known = {
+        "state": claims.names,
+        "parameters": tuple(claims.parameters),
+        "inputs": tuple(claims.u),
+    }
+    for (what, names), listed in zip(known.items(), found, strict=True):
+        if listed is not None and tuple(listed) != names:
+            raise DiffersError(f"the names of the {what} are not those of the record")
+    wanted = {what.upper(): len(names) for what, names in known.items()}
+    wanted |= {"ALGEBRA": len(claims.names)}
     for what, size in wanted.items():
         if sizes.get(what, size) != size:
             raise DiffersError(f"the size {what} is {sizes[what]}, not {size}")

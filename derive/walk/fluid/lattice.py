@@ -9,7 +9,7 @@ from fractions import Fraction
 
 from ...algebra.structure import Place, TorusLattice
 from ...algebra.words import Expr, Letter
-from ...language.tree import Tree, add, mul
+from ...language.tree import Tree, add, mul, neg
 from ...record.record import Equation, Step
 from ..chapter import Chapter, say
 
@@ -167,7 +167,10 @@ class Coefficient:
     def at(self, k: Index) -> Tree:
         """|k|²ᵖ a(k), without the unit."""
         value, square = of(self.name, k), ("norm2", FREE if k in (N, minus(N)) else BOUND)
-        return {0: value, 1: mul(square, value), -1: ("div", value, square)}[self.power]
+        raised = square if abs(self.power) == 1 else ("pow", square, abs(self.power))
+        if self.power < 0:
+            return ("div", value, raised)
+        return mul(raised, value) if self.power else value
 
     def element(self) -> Tree:
         """Σ of it T(n)."""
@@ -257,6 +260,32 @@ def traced(e: Expr, elements: Mapping[Letter, Coefficient], order: int) -> Latti
     return total
 
 
+# What acts on the fluid from outside dϖ: a covector, by its values f̂(n) as those of Π are ω̂(n), and
+# damping, −κ |n|²ᵖ ω̂(n).
+
+
+@dataclass(frozen=True)
+class Outside:
+    """Is there an input f̂?  ``damping``: the coefficients κ, each with p."""
+
+    driven: bool
+    damping: tuple[tuple[Tree, int], ...] = ()
+
+    def __bool__(self) -> bool:
+        return self.driven or bool(self.damping)
+
+    def at(self, k: Index) -> Tree:
+        """The coefficient of the whole at an index."""
+        damped = (neg(mul(kappa, Coefficient("ω̂", ONE, p).at(k))) for kappa, p in self.damping)
+        return add(*([of("f̂", k)] * self.driven), *damped)
+
+    def at_place(self, n: Place) -> Tree:
+        """The same at a place."""
+        size = _square(n)
+        damped = (neg(mul(kappa, size**p, at(n))) for kappa, p in self.damping)
+        return add(*([at(n, "f̂")] * self.driven), *damped)
+
+
 # The motion on the torus mode by mode, for small N: the sums over the lattice, written out.
 #
 # [W, P] is the sum of a(m) b(k) [T(m), T(k)], which is on T(m + k); the sines of m∧k and of k∧m
@@ -269,13 +298,17 @@ Terms = Mapping[int, Mapping[Pair, Fraction]]
 """Of one mode: by k of sin 2πk/N, 0 < k < N/2, the number before each pair of coefficients."""
 
 
-def modes(phase: Phase, stream: Coefficient, rate: Unit, motion: Step, c: Chapter) -> Step:
-    """dω̂(n)/dt for one of n and −n, of Ẇ = rate · [W, P]; ``stream``: P by ω̂."""
+def modes(
+    phase: Phase, stream: Coefficient, rate: Unit, outside: Outside, motion: Step, c: Chapter
+) -> Step:
+    """dω̂(n)/dt for one of n and −n, of Ẇ = rate · [W, P] and what acts from ``outside``;
+    ``stream``: P by ω̂."""
     draft = c.draft("modes", "evaluation", motion)
     torus, found = TorusLattice(phase.N), commutator(TorusLattice(phase.N), stream.power)
     unit = rate * stream.unit * phase.bracket(M, N)[0]
     told = [
-        Equation(("call", "d/dt", at(n)), total(phase, unit, found[n])) for n in torus.half_plane
+        Equation(("call", "d/dt", at(n)), add(total(phase, unit, found[n]), outside.at_place(n)))
+        for n in torus.half_plane
     ]
     return draft.step(told, say("modes.torus"))
 
@@ -307,6 +340,6 @@ def total(phase: Phase, unit: Unit, terms: Terms) -> Tree:
     return add(*groups)
 
 
-def at(n: Place) -> Tree:
-    """ω̂ at a place."""
-    return ("call", "ω̂", *n)
+def at(n: Place, name: str = "ω̂") -> Tree:
+    """A function of the lattice, ω̂, at a place."""
+    return ("call", name, *n)

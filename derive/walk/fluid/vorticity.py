@@ -8,7 +8,7 @@ from fractions import Fraction
 from ...algebra.calculus import derivation, gradient, substitute
 from ...algebra.structure import TorusLattice
 from ...algebra.words import Expr, Letter, inner, trace, word
-from ...language.tree import mul
+from ...language.tree import add, mul
 from ...problem.problem import Problem
 from ...record.record import Equation, Step
 from ..chapter import Chapter, say
@@ -20,6 +20,7 @@ from .lattice import (
     LatticeForm,
     M,
     N,
+    Outside,
     Phase,
     Unit,
     bracket_at,
@@ -87,12 +88,21 @@ def torus_steps(
     algebra, lagrangian = _algebra(phase, first, c), _lagrangian(fluid, general, first, c)
     momenta = _momenta(fluid, (first, lagrangian, general["momenta"]), c)
     flow, energy = _stream(fluid, momenta, c), _energy(fluid, (momenta, general["energy"]), c)
-    rate = coadjoint_rate(fluid, general.epsilon, a)
-    turning = _coadjoint(rate, general, (momenta, flow), c)
-    motion = _motion(phase, fluid, rate, (turning, flow, algebra, momenta), c)
-    told = [modes(phase, fluid.stream, rate, motion, c)] if torus.N <= LARGEST else []
-    kept = _conserved(fluid, torus, (turning, energy, momenta), c)
-    return first, algebra, lagrangian, momenta, flow, energy, turning, motion, *told, kept
+    rate, outside = coadjoint_rate(fluid, general.epsilon, a), acting(problem)
+    c = c.with_input() if outside else c
+    forced = (_forcing(outside, momenta, c),) if outside else ()
+    turning = _coadjoint(rate, general, (momenta, flow, *forced), c)
+    motion = _motion(phase, fluid, rate, outside, (turning, flow, algebra, momenta, *forced), c)
+    told = [modes(phase, fluid.stream, rate, outside, motion, c)] if torus.N <= LARGEST else []
+    kept = _conserved(fluid, torus, outside, (turning, energy, momenta, *forced), c)
+    found = first, algebra, lagrangian, momenta, flow, energy, *forced, turning, motion
+    return *found, *told, kept
+
+
+def acting(problem: Problem) -> Outside:
+    """What acts from outside dϖ."""
+    decay = tuple((x.coefficient, x.power) for x in problem.decay)
+    return Outside(bool(problem.covector), decay)
 
 
 def _basis(phase: Phase, fluid: ZeitlinFluid, general: AnyLagrangian, c: Chapter) -> Step:
@@ -157,41 +167,66 @@ def coadjoint_rate(fluid: ZeitlinFluid, epsilon: int, a: Alphabet) -> Unit:
     return fluid.velocity * sign_of(rate, BRACKET)
 
 
+def _forcing(outside: Outside, momenta: Step, c: Chapter) -> Step:
+    """The covector that acts, as a matrix with the coefficients that W has of the momentum."""
+    draft = c.draft("forcing", "input", momenta)
+    given = say("forcing.torus") + (say("forcing.torus_input") if outside.driven else ())
+    given += say("forcing.torus_damping") if outside.damping else ()
+    return draft.step([Equation("F", summed(outside.at))], given)
+
+
 def _coadjoint(rate: Unit, general: AnyLagrangian, made_from: tuple[Step, ...], c: Chapter) -> Step:
     draft = c.draft("coadjoint", "kernel", general["coadjoint"], *made_from)
-    moved = Equation("Ẇ", rate.times(("bracket", "W", "P")))
-    return draft.step([moved], say("coadjoint.torus"))
+    turned = rate.times(("bracket", "W", "P"))
+    if c.driven:
+        return draft.step([Equation("Ẇ", add(turned, "F"))], say("coadjoint.torus_driven"))
+    return draft.step([Equation("Ẇ", turned)], say("coadjoint.torus"))
 
 
 def _motion(
-    phase: Phase, fluid: ZeitlinFluid, rate: Unit, made_from: tuple[Step, ...], c: Chapter
+    phase: Phase,
+    fluid: ZeitlinFluid,
+    rate: Unit,
+    outside: Outside,
+    made_from: tuple[Step, ...],
+    c: Chapter,
 ) -> Step:
     """The coefficient at T(n) of Ẇ."""
     draft = c.draft("motion", "solution", *made_from)
     unit, total = bracket_at(phase, Coefficient("ω̂").at, fluid.stream.at)
     unit = rate * fluid.stream.unit * unit
-    return draft.step(
-        [Equation(("call", "d/dt", of("ω̂", N)), unit.times(total))], say("motion.torus")
-    )
+    found = add(unit.times(total), outside.at(N))
+    told = say("motion.torus_driven" if outside else "motion.torus")
+    return draft.step([Equation(("call", "d/dt", of("ω̂", N)), found)], told)
 
 
 def _conserved(
-    fluid: ZeitlinFluid, torus: TorusLattice, made_from: tuple[Step, ...], c: Chapter
+    fluid: ZeitlinFluid,
+    torus: TorusLattice,
+    outside: Outside,
+    made_from: tuple[Step, ...],
+    c: Chapter,
 ) -> Step:
-    """The energy, and Tr Wᵏ: traces of a product with a bracket of one of its factors."""
-    draft = c.draft("conserved", "conservation", *made_from)
-    dW, vorticity = Letter("δW", "n", "n"), Coefficient("ω̂")
+    """The rates of the energy and of Tr Wᵏ, traces of a product with a bracket of one of its
+    factors: those by what acts from outside, and 0 where nothing does."""
+    label, rule = ("power", "power") if outside else ("conserved", "conservation")
+    draft = c.draft(label, rule, *made_from)
+    dW, forced, vorticity = Letter("δW", "n", "n"), word(Letter("F", "n", "n")), Coefficient("ω̂")
     elements = {W: vorticity, P: fluid.stream, dW: Coefficient("δω̂")}
-    along = traced(trace(word(P, dW)), elements, torus.N)
-    fluid.energy.varied("ω̂", "δω̂").over(along)  # δh̃ is a multiple of Tr P δW
+    along, varied = traced(trace(word(P, dW)), elements, torus.N), fluid.energy.varied("ω̂", "δω̂")
+    varied.over(along)  # δh̃ is a multiple of Tr P δW
     _require_zero(trace(word(P) * BRACKET))
-    told = [Equation(("call", "d/dt", "h̃"), 0)]
+    slope = varied.gradient("δω̂")
+    power = slope.unit.times(summed(outside.at, slope.at(minus(N)))) if outside else 0
+    told = [Equation(("call", "d/dt", "h̃"), power)]
     for k in CASIMIRS:
-        _require_zero(derivation(trace(word(*[W] * k)), {W: BRACKET}.get))
-        told.append(Equation(("call", "d/dt", ("tr", mul(*["W"] * k))), 0))
+        kept = trace(word(*[W] * k))
+        _require_zero(derivation(kept, {W: BRACKET}.get))
+        rate = draft.tree(derivation(kept, {W: forced}.get)) if outside else 0
+        told.append(Equation(("call", "d/dt", ("tr", mul(*["W"] * k))), rate))
     enstrophy = traced(trace(word(W, W)), elements, torus.N)
     told.append(Equation(("tr", mul("W", "W")), enstrophy.tree()))
-    return draft.step(told, say("conserved.torus"))
+    return draft.step(told, say("power.torus" if outside else "conserved.torus"))
 
 
 def _require_zero(e: Expr) -> None:

@@ -12,7 +12,7 @@ from derive.algebra.structure import TorusLattice
 from derive.algebra.words import Letter, trace, word
 from derive.check.checker import Checker, check
 from derive.language.show import show
-from derive.language.tree import add, mul
+from derive.language.tree import add, mul, replaced
 from derive.record.record import ANY_GROUP, Equation
 from derive.walk.fluid import vorticity
 from derive.walk.fluid.lattice import Coefficient, Unit, paired, traced
@@ -157,6 +157,45 @@ def test_a_record_of_another_group_is_refused():
     for key, value in (("group", "SU(7)"), ("n", 7), ("torus", {"N": 7})):
         wrong = replace(d, problem={**d.problem, key: value})
         assert not all(v.holds for v in check(wrong, SEED))
+
+
+def otherwise(changed, label, number, old, new):
+    """The verdict on a step of the stirred fluid with another tree in an equation."""
+    step = corpus.record("torus stirred")[f"fluid.{label}"]
+    equations = list(step.equations)
+    there = replaced(equations[number].rhs, old, new)
+    assert changed == (there != equations[number].rhs)
+    equations[number] = replace(equations[number], rhs=there)
+    return corpus.checker("torus stirred").check(replace(step, equations=tuple(equations)))
+
+
+KAPPA, NU, F_HAT = ("par", "kappa"), ("par", "nu"), ("call", "f̂", "𝐧")
+WRONG = {
+    "another coefficient": ("forcing", 0, KAPPA, NU),
+    "another power": ("motion", 0, 2, 3),
+    "the input twice": ("motion", 0, F_HAT, ("mul", 2, F_HAT)),
+    "the conjugate input": ("motion", 0, F_HAT, ("call", "f̂", ("mul", -1, "𝐧"))),
+    "no drag": ("motion", 0, KAPPA, 0),
+    "no input": ("coadjoint", 0, "F", 0),
+    "the input of another mode": ("modes", 0, ("call", "f̂", 1, 0), ("call", "f̂", 0, 1)),
+    "no power of the input": ("power", 0, F_HAT, 0),
+    "no hyperviscosity in the energy": ("power", 0, NU, 0),
+    "twice the trace": ("power", 2, 3, 6),
+}
+
+
+@pytest.mark.parametrize("name", WRONG)
+def test_what_is_false_of_forcing_and_drag_is_refused(name):
+    label, number, old, new = WRONG[name]
+    assert not otherwise(True, label, number, old, new).holds
+    assert otherwise(False, label, number, "nothing", new).holds
+
+
+def test_a_step_without_the_input_is_another_claim():
+    """That the energy is kept, said of the motion with an input."""
+    step = corpus.record("torus stirred")["fluid.power"]
+    kept = replace(step.equations[0], rhs=0)
+    assert not corpus.checker("torus stirred").check(replace(step, equations=(kept,))).holds
 
 
 def test_coefficients_follow_from_the_inertia_operator(monkeypatch):
