@@ -30,6 +30,7 @@ from .claims import (
     position_claims,
     reduction_claims,
     symmetry_count,
+    symmetry_kinds,
     trim_claims,
 )
 from .claims.enclosure import enclosure_fault, kept_claims
@@ -410,6 +411,7 @@ JUDGES: dict[str, Judge] = {
     **trim_claims.JUDGES,
     **enclosed_trims.JUDGES,
     **{kind: _of_symmetries(judge) for kind, judge in symmetry_count.JUDGES.items()},
+    **{kind: _of_symmetries(judge) for kind, judge in symmetry_kinds.JUDGES.items()},
     **{kind: _of_reduced(judge) for kind, judge in integral_claims.JUDGES.items()},
     **{kind: _of_reduced(judge) for kind, judge in equilibrium_claims.JUDGES.items()},
     **{kind: _of_reduced(judge) for kind, judge in family_claims.JUDGES.items()},

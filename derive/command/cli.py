@@ -127,9 +127,11 @@ def command_equilibria(args: argparse.Namespace) -> int:
                 print(f"derive: {problem.name}: {reason}", file=sys.stderr)
                 found, record = families(problem, args.degree, at_defaults=True)
     if not found:
+        on_leaves = "with letters no family on a symplectic leaf of more than a point"
+        remedy = "leave --letters out" if args.letters else "give one by --at NAME=NUMBER"
         raise UsageError(
-            f"{record.name}: no equilibrium among the points with at most one momentum, 1, and at "
-            "most one other coordinate, 1 or -1: give one by --at NAME=NUMBER"
+            f"{record.name}: {on_leaves if args.letters else 'no equilibrium'} among the points "
+            f"with at most one momentum, 1, and at most one other coordinate, 1 or -1: {remedy}"
         )
     save_found(record, args)
     return 0

@@ -14,8 +14,9 @@ from unicodedata import normalize
 import numpy as np
 
 from ..check.checker import checker_of
+from ..language.laurent import OverlongError, vanishes
 from ..language.show import in_sentence, show
-from ..language.tree import Tree, replaced
+from ..language.tree import Tree, add, neg, nodes, replaced
 from ..record.as_json import decode
 from ..record.prose import message
 from ..record.record import Derivation, Equation, Step
@@ -141,7 +142,24 @@ def _kind(d: Derivation, point: Point) -> tuple[str, int, Sequence[tuple[int, in
             entries.append((*x[2:], y))
         else:
             return "", 0, []
-    return (kind, axis, entries) if d.problem["group"] in SOLIDS else ("", 0, [])
+    told = d.problem["group"] in SOLIDS and _even(d.problem)
+    return (kind, axis, entries) if told else ("", 0, [])
+
+
+def _even(problem: Mapping[str, Any]) -> bool:
+    """Is a Lagrangian the same for the opposite velocity?  With a wheel that spins inside, or a
+    magnetic field, it is not, and the momentum of a body at rest is not 0; of a long one it is not
+    asked."""
+    told = (problem.get("lagrangian") or {}).get("L")
+    if told is None:
+        return True
+    energy = opposite = decode(told, "lecture")
+    for x in {x for x in nodes(energy) if isinstance(x, tuple) and x[:2] == ("entry", "ζ")}:
+        opposite = replaced(opposite, x, neg(x))
+    try:
+        return vanishes(add(energy, neg(opposite)))
+    except OverlongError:
+        return False
 
 
 def _of_one(

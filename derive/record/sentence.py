@@ -137,7 +137,11 @@ KINDS = {
     ),
     "relation": "left_invariant",
     "tetrahedron": "affine linear",
-    "symmetries": "algebra algebra_modulo none open",
+    "symmetries": (
+        "algebra algebra_modulo none open time translation_space rotation_space "
+        "displacement_space deformation_space translation_body rotation_body displacement_body "
+        "deformation_body boost rotation_alone both moving"
+    ),
     "equilibrium": (
         "at origin none orbit form stable stable_beyond stable_compact on_the_leaf indefinite "
         "point unstable unstable_beyond open undecided eigenvalues squares near"

@@ -5,7 +5,7 @@ import re
 import tomllib
 from dataclasses import replace
 from fractions import Fraction
-from functools import cache
+from functools import cache, partial
 from random import Random
 
 import pytest
@@ -14,6 +14,7 @@ from derive import derive, first_integrals
 from derive.check.checker import JUDGES, OBLIGATORY, ClaimChecker
 from derive.check.claims import claims_by_ranks
 from derive.check.claims.symmetry_count import SymmetryCount
+from derive.check.claims.symmetry_kinds import NAMES
 from derive.check.trials.trial_points import group_of
 from derive.language.tree import add, mul
 from derive.pipeline import walk
@@ -23,7 +24,7 @@ from derive.record.prose import message
 from derive.record.sentence import CLAIMS, CONDITIONS, Claim, Sentence
 from derive.search.integrals import integral_steps
 from tests.problems import PROBLEMS
-from tests.support import trims, walks
+from tests.support import symmetric, trims, walks
 from tests.support.lagrangians import (
     APART,
     LINE,
@@ -43,6 +44,15 @@ DIVIDED = {
     },
 }
 """Whose locked inertia has an inverse also where a pivot of its elimination vanishes."""
+
+MOVED = ("ball", "spatial", "driven", "spiral", "landau")
+"""Problems whose symmetries together move time, space and bodies in every way that has a name."""
+
+
+def symmetries_of(name):
+    """The record of the symmetries of a problem for tests."""
+    return symmetric.found(name).record
+
 
 RECORDS = {
     "euler_top": lambda: first_integrals("euler_top", 2).record,
@@ -70,6 +80,8 @@ RECORDS = {
     "symmetries": lambda: derive("lagrange_top").symmetries().record,
     "a rod": lambda: derive("rod").symmetries().record,
     "a function": lambda: derive("gas_cloud").symmetries().record,
+    **{f"symmetries: {x}": partial(symmetries_of, x) for x in MOVED},
+    "a nut": lambda: derive("screw").symmetries().record,
     "no symmetries": lambda: derive(heavy("123", "t*A_11 + A_22 + A_12^2", "")).symmetries().record,
     "a tetrahedron": lambda: walks.record("sl3"),
     "a tetrahedron, displaced": lambda: walks.record("saff3"),
@@ -183,6 +195,25 @@ def test_every_kind_is_judged_and_made():
 def test_claims_hold_and_are_read_back(name):
     assert not [x for x in map(ClaimChecker(record(name), SEED).fault, record(name).steps) if x]
     assert from_json(to_json(record(name))).steps == record(name).steps
+
+
+COMMUTING = {"symmetries: spiral", "symmetries: landau", "a nut"}
+"""Records on groups that commute, on which what moves space moves the body, too."""
+
+
+@pytest.mark.parametrize("name", [x for x in RECORDS if "symmetries" in x or x == "a nut"])
+def test_a_symmetry_has_no_other_name(name):
+    checker = ClaimChecker(record(name), SEED)
+    for step in record(name).steps:
+        for k, claim in enumerate(step.claims):
+            for kind in NAMES if claim.kind in NAMES else ():
+                renamed = replace(
+                    step, claims=(*step.claims[:k], Claim(kind), *step.claims[k + 1 :])
+                )
+                both = {claim.kind[-5:], kind[-5:]} == {"space", "_body"}
+                if kind == claim.kind or (both and name in COMMUTING):
+                    continue
+                assert any(checker._fault(renamed, x) for x in renamed.claims if x.kind in NAMES)
 
 
 def changes(claim):

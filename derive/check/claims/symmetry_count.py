@@ -69,14 +69,14 @@ class SymmetryCount:
     @cached_property
     def dimension(self) -> int:
         """How many there are, for generic parameters."""
-        return self._modulo_a_prime(self._counted)
+        return self.modulo_a_prime(self._counted)
 
     def independent(self, listed: Sequence[Listed]) -> bool:
         """Is no combination of what the motion keeps by these symmetries constant, for generic
         parameters?"""
-        return self._modulo_a_prime(lambda p: self._rank(listed, p)) == len(listed)
+        return self.modulo_a_prime(lambda p: self._rank(listed, p)) == len(listed)
 
-    def _modulo_a_prime(self, found: Callable[[int], int]) -> int:
+    def modulo_a_prime(self, found: Callable[[int], int]) -> int:
         """What is found modulo a random prime with the roots that are needed."""
         for _ in range(TRIES):
             p = next(primes_from(self.random.randrange(2**30, 2**31) | 3))
@@ -91,8 +91,8 @@ class SymmetryCount:
         seen = (x for field in listed for t in field for x in nodes(t))
         letters = dict.fromkeys([*self.parameters, *(x for x in seen if is_parameter(x))])
         parameters = drawn(letters, self.random, p)
-        points = self._points(len(listed) + SPARE, parameters, p)
-        source = ResidueVectorSource(p, points.count, self._seed())
+        points = self.points(len(listed) + SPARE, parameters, p)
+        source = ResidueVectorSource(p, points.count, self.seed())
         functions = Functions(source, roots=self.true_roots)
         found = points.rank([points.conserved_by(x, parameters, functions) for x in listed])
         if not all(functions.valid):
@@ -103,9 +103,9 @@ class SymmetryCount:
         """The dimension modulo a prime."""
         parameters, fields = drawn(self.parameters, self.random, p), self._tangent_fields(p)
         columns = len(self.monomials) + 2 * len(fields) + 1
-        points = self._points(columns + SPARE, parameters, p)
+        points = self.points(columns + SPARE, parameters, p)
         found = kernel(_rows(points.row(fields), points.count, p), columns, p)[0]
-        tried = self._points(len(found) + SPARE, parameters, p)
+        tried = self.points(len(found) + SPARE, parameters, p)
         values = tried.conserved(fields)
         return tried.rank([q.dot(v, values) for v in found])
 
@@ -124,7 +124,7 @@ class SymmetryCount:
     def _tangent_fields(self, p: int) -> list[Field]:
         """A basis of the pairs (Y, X) with g⁻¹Yg − X in 𝔤 for all g."""
         size, rows, normal = self.group.size, list[list[int]](), self.group.normal_space
-        source = ResidueVectorSource(p, 2 * size**2 // max(1, len(normal)) + SPARE, self._seed())
+        source = ResidueVectorSource(p, 2 * size**2 // max(1, len(normal)) + SPARE, self.seed())
         g, back = self._sampled(source)
         for m in normal:
             pulled = q.times(q.times(q.transposed(back), m), q.transposed(g))
@@ -134,7 +134,8 @@ class SymmetryCount:
         matrices = ([v[k : k + size] for k in range(0, len(v), size)] for v in found)
         return [(q.matrix(x[:size]), q.matrix(x[size:])) for x in matrices]
 
-    def _seed(self) -> int:
+    def seed(self) -> int:
+        """A seed of random numbers."""
         return self.random.getrandbits(64)
 
     def _sampled(self, source: ResidueVectorSource) -> tuple[Matrix, Matrix]:
@@ -146,10 +147,10 @@ class SymmetryCount:
             raise UnluckyError
         return g, back
 
-    def _points(self, several: int, parameters: Mapping[Tree, Residue], p: int) -> JetPoints:
+    def points(self, several: int, parameters: Mapping[Tree, Residue], p: int) -> JetPoints:
         """So many points of R × G × 𝔤; ``UnluckyError`` for fewer."""
         count = several if self.oversampling == 1 else self.oversampling * several * 5 // 4 + SPARE
-        source = ResidueVectorSource(p, count, self._seed())
+        source = ResidueVectorSource(p, count, self.seed())
         g, back = self._sampled(source)
         t, *zeta = (source.randint(1, p) for _ in range(self.group.dimension + 1))
         leaves: dict[Tree, ResidueVector] = {"t": t}
@@ -203,7 +204,7 @@ class JetPoints:
     def rank(self, columns: Sequence[Any]) -> int:
         """The rank of numbers at the points, modulo constants."""
         one = [1] * self.count
-        found = [_each(x, self.count, self.p) for x in columns]
+        found = [each(x, self.count, self.p) for x in columns]
         return len(pivots([one, *found], self.count, self.p)) - 1
 
     @cached_property
@@ -267,22 +268,29 @@ class JetPoints:
         self, listed: Listed, parameters: Mapping[Tree, Residue], functions: Functions
     ) -> Any:
         """⟨Π, η⟩ − τh̃ − F for a field given by trees."""
+        scalar = self.scalar(parameters, functions)
+        moved = displaced(listed.displacement, self.g, scalar)
+        eta = q.times(*((self.back, moved) if self.of.left else (moved, self.back)))
+        return self.paired(eta) - (scalar(listed.time) * self.energy + scalar(listed.F))
+
+    def scalar(
+        self, parameters: Mapping[Tree, Residue], functions: Functions
+    ) -> Callable[[Tree], Any]:
+        """The values of trees of the time, the entries of g and parameters."""
         at = {"t": self.leaves[0], **parameters, **_entries(self.g)}
 
-        def scalar(t: Tree) -> Any:
+        def of(t: Tree) -> Any:
             found = value(t, at, self.p, functions)
             return found.n if isinstance(found, Residue) else found
 
-        moved = _matrix(listed.displacement, self.g, scalar)
-        eta = q.times(*((self.back, moved) if self.of.left else (moved, self.back)))
-        return self.paired(eta) - (scalar(listed.time) * self.energy + scalar(listed.F))
+        return of
 
 
 def _entries(g: Matrix) -> dict[Tree, Any]:
     return {("entry", "A", i, j): x for i, row in enumerate(g, 1) for j, x in enumerate(row, 1)}
 
 
-def _matrix(t: Tree, g: Matrix, scalar: Callable[[Tree], Any]) -> Matrix:
+def displaced(t: Tree, g: Matrix, scalar: Callable[[Tree], Any]) -> Matrix:
     """The value of δA, a sum of products of numbers, matrices and A."""
     if t == "A":
         return g
@@ -293,11 +301,11 @@ def _matrix(t: Tree, g: Matrix, scalar: Callable[[Tree], Any]) -> Matrix:
     if t[0] == "matrix":
         return q.matrix([[scalar(x) for x in operands(row)] for row in operands(t)])
     if t[0] == "add":
-        return reduce(q.plus, (_matrix(x, g, scalar) for x in operands(t)))
+        return reduce(q.plus, (displaced(x, g, scalar) for x in operands(t)))
     found = q.identity(len(g))
     for x in operands(t):
         if x == "A" or begins(x, "matrix") or begins(x, "add"):
-            found = q.times(found, _matrix(x, g, scalar))
+            found = q.times(found, displaced(x, g, scalar))
         else:
             found = q.scaled(scalar(x), found)
     return found
@@ -308,14 +316,14 @@ def _of_state(x: Tree) -> bool:
     return any(y == "t" or begins(y, "entry") for y in nodes(x))
 
 
-def _each(x: Any, count: int, p: int) -> list[int]:
+def each(x: Any, count: int, p: int) -> list[int]:
     """A number at each of so many points."""
     return x.values if isinstance(x, ResidueVector) else [residue_of(x, p)] * count
 
 
 def _rows(columns: Iterable[Any], count: int, p: int) -> list[list[int]]:
     """The numbers at each of so many points."""
-    return [[*row] for row in zip(*(_each(x, count, p) for x in columns), strict=True)]
+    return [[*row] for row in zip(*(each(x, count, p) for x in columns), strict=True)]
 
 
 # The claims about the symmetries of a Lagrangian: how many there are, as many independent ones

@@ -13,7 +13,7 @@ from ...language.tree import Tree, add, mul, neg, nodes, plain, terms
 from ...problem.problem import Problem
 from ...record.as_json import encode
 from ...record.record import Derivation, Equation, Hypothesis, Step, stated
-from ...walk.chapter import Chapter, Values, phrase, say
+from ...walk.chapter import Chapter, Values, say
 from ...walk.lie import expressed
 from ...walk.lie.expressed import of_element
 from ...walk.spine.head import recorded
@@ -83,7 +83,7 @@ def _symmetry(x: Symmetry, label: str, made_from: tuple[Step, ...], c: Chapter) 
     equations = [*field, Equation(("call", "δ", "L̃"), x.rate)]
     equations.append(Equation(add(ON_FORM, neg(x.F)), x.conserved()))
     equations.append(Equation(("call", "d/dt", add(ON_FORM, neg(x.F))), 0))
-    name = phrase(f"symmetries.{x.kind}")
+    (name,) = draft.claim(f"symmetries.{x.kind}")
     prose = say("symmetries.exact" if x.exact else "symmetries.up_to", kind=name)
     return draft.step(equations, prose, where=field)
 
@@ -95,8 +95,10 @@ def _central(found: SymmetriesFound, pair: Central, whole: Step, c: Chapter) -> 
     one, two = (found.symmetries[k] for k in (pair.first, pair.second))
     fields = [*_field(one), *_field(two, "′")]
     equation = Equation(stated("dϖ(δy, δ′y) = 0")[0].lhs, pair.number)
-    kinds = {name: phrase(f"symmetries.{x.kind}") for name, x in (("first", one), ("second", two))}
-    return draft.step([*fields, equation], say("symmetries.central", **kinds), where=fields)
+    (first,), (second,) = (draft.claim(f"symmetries.{x.kind}") for x in (one, two))
+    return draft.step(
+        [*fields, equation], say("symmetries.central", first=first, second=second), where=fields
+    )
 
 
 BOTH: tuple[Tree, Tree] = ("δy", "δ′y")
@@ -150,7 +152,8 @@ def _momentum(x: Symmetry, i: int, r: Routhian, made_from: Iterable[Step], c: Ch
         Equation(("call", "d/dt", ON_FORM), 0),
     ]
     prose = () if i else draft.claim("reduction.taken", count=len(r.chosen))
-    prose += say("reduction.momentum", kind=phrase(f"symmetries.{x.kind}"))
+    (kind,) = draft.claim(f"symmetries.{x.kind}")
+    prose += say("reduction.momentum", kind=kind)
     return draft.step(equations, prose, where=field)
 
 
