@@ -9,7 +9,7 @@ from functools import cached_property, reduce
 from itertools import combinations_with_replacement
 from math import prod
 from random import Random
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeVar
 
 from ...algebra.exact_kernel import (
     ResidueVector,
@@ -39,6 +39,7 @@ from .spectra_and_residues import (
     value,
 )
 
+V = TypeVar("V")
 Field = tuple[Matrix, Matrix]
 """Y and X."""
 SPARE = 8
@@ -76,7 +77,7 @@ class SymmetryCount:
         parameters?"""
         return self.modulo_a_prime(lambda p: self._rank(listed, p)) == len(listed)
 
-    def modulo_a_prime(self, found: Callable[[int], int]) -> int:
+    def modulo_a_prime(self, found: Callable[[int], V]) -> V:
         """What is found modulo a random prime with the roots that are needed."""
         for _ in range(TRIES):
             p = next(primes_from(self.random.randrange(2**30, 2**31) | 3))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from functools import partial
 
 from ...algebra.exact_kernel import ResidueVectorSource
 from ...language import rational as q
@@ -120,12 +121,14 @@ def _kind(found: SymmetryCount, _: Derivation, step: Step, claim: Claim) -> str:
     if len(fields) != len(told):
         raise RecordError(f"{len(fields)} fields have {len(told)} names")
     for (time, displacement), name in zip(fields, told, strict=True):
-        kinds = found.modulo_a_prime(
-            lambda p, x=given[time], y=given[displacement]: [*Field(found, x, y, p).kinds]
-        )
+        kinds = found.modulo_a_prime(partial(_kinds, found, given[time], given[displacement]))
         if name not in kinds:
             return f"the field is {' or '.join(kinds) or 'none'}"
     return ""
+
+
+def _kinds(found: SymmetryCount, time: Tree, displacement: Tree, p: int) -> list[str]:
+    return [*Field(found, time, displacement, p).kinds]
 
 
 JUDGES: dict[str, Judge] = dict.fromkeys(NAMES, _kind)
