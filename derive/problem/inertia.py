@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from fractions import Fraction
-from math import gcd, lcm
+from math import gcd, lcm, sqrt
 from random import Random
 from typing import Any, Literal
 
@@ -241,20 +241,31 @@ def impossible(group: Group, body: Body | None, parameters: Mapping[str, Paramet
     return f"no masses have these moments: {why}{f'; {CAD}' * drawn}" if why else ""
 
 
-def negative_kinetic_energy(
-    second: Sequence[Sequence[Tree]], parameters: Mapping[str, Parameter]
-) -> str:
+def doubt_of_metric(second: Sequence[Sequence[Tree]], parameters: Mapping[str, Parameter]) -> str:
     """Is the matrix ``second`` of the second derivatives of L by the velocity not positive for the
-    defaults of the parameters, and how; "" where it is, or where that is not known."""
-    found = [[approximate(t, defaults(parameters)) for t in row] for row in second]
-    if any(x is None for row in found for x in row):
+    defaults of the parameters, and how, or singular as it is not for others; "" where it is
+    positive, or where that is not known."""
+    given = defaults(parameters)
+    M = _values(second, given)
+    if M is None:
         return ""
-    M = [[Fraction(x) for x in row if x is not None] for row in found]
     least = _least(M)
-    if least >= -sum(abs(M[k][k]) for k in range(len(M))) / ROUNDED:
-        return ""
-    told = f"its matrix has the eigenvalue {float(least):.4g}"
-    return f"the kinetic energy is negative in some direction: {told}"
+    if least < -sum(abs(M[k][k]) for k in range(len(M))) / ROUNDED:
+        told = f"its matrix has the eigenvalue {float(least):.4g}"
+        return f"the kinetic energy is negative in some direction: {told}"
+    elsewhere = _values(second, {x: sqrt(k + 1 / 3) for k, x in enumerate(given, 1)})
+    if elsewhere and q.rank(q.matrix(M)) < q.rank(q.matrix(elsewhere)):
+        return "the kinetic energy is 0 in some direction for the values of the parameters"
+    return ""
+
+
+def _values(
+    second: Sequence[Sequence[Tree]], values: Mapping[str, float]
+) -> list[list[Fraction]] | None:
+    found = [[approximate(t, values) for t in row] for row in second]
+    if any(x is None for row in found for x in row):
+        return None
+    return [[Fraction(x) for x in row if x is not None] for row in found]
 
 
 CAD = (

@@ -37,7 +37,7 @@ from .fields import (
 )
 from .file_reader import FileReader
 from .flows import flows_of, require_bodies_own
-from .inertia import impossible, negative_kinetic_energy, negative_mass
+from .inertia import doubt_of_metric, impossible, negative_mass
 from .lagrangian_tables import group_of_algebra, lagrangian, on_torus, torus_problem
 from .motion_tables import KEYS, faults, kinematics_problem, motion_fields, named, named_twice
 from .problem import Problem, ProblemError
@@ -438,7 +438,7 @@ def doubts(p: Problem, given: Mapping[str, float], *, followed: bool = False) ->
         yield f"body: {why}"
     if p.group and p.lagrangian and not p.signed:
         second = hessian(p.lagrangian.L, coordinates(p.group))
-        yield from filter(None, [negative_kinetic_energy(second, values)])
+        yield from filter(None, [doubt_of_metric(second, values)])
     if metric_in_time(p):
         yield (
             "the metric ∂²L/∂Z² depends on the time: if by a mass m(t), the equations are "

@@ -49,6 +49,24 @@ def test_momenta_leave_a_leaf_that_is_a_point():
     assert all(v.holds for v in resting.check(1))
 
 
+def test_advected_coordinates_leave_a_leaf_too():
+    """Of [e_1, e_2] = e_3, [e_4, e_1] = e_1, [e_4, e_2] = −e_2, ℓ with 2ζ_4, on the right: at rest
+    ζ_4 = −2, by hand Π̇_1 = 2Π_1 + … and Π̇_2 = −2Π_2 + …, whatever Γ_3 is."""
+    problem = {
+        "name": "drifting",
+        "algebra": {"brackets": [[1, 2, 3, 1], [4, 1, 1, 1], [4, 2, 2, -1]]},
+        "advected": [{"name": "u", "representation": "coadjoint"}],
+        "lagrangian": {
+            "L": "3*(zeta_1^2 + zeta_2^2)/2 + (zeta_3^2 + zeta_4^2)/2 + 2*zeta_4 - 5*u_3",
+            "trivialisation": "right",
+        },
+    }
+    found = derive(problem_of(problem)).equilibria({"Gamma_3": 1})
+    (x,) = found
+    assert (x.verdict, x.growth) == ("unstable", pytest.approx(2))
+    assert all(v.holds for v in found.check(1))
+
+
 def test_rest_at_one_where_other_entries_never_vary():
     found = derive(heisenberg()).equilibria()
     assert [x.verdict for x in found] == ["stable", "stable"]

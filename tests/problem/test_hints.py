@@ -298,6 +298,16 @@ def test_a_kinetic_energy_that_is_negative_somewhere(diagonal, told):
     assert found == [words] * told
 
 
+@pytest.mark.parametrize(("diagonal", "told"), [(("a", 2, 3), True), ((0, "b", "b"), False)])
+def test_a_kinetic_energy_that_is_0_for_some_numbers_alone(diagonal, told):
+    """A parameter that is 0 by default, not a direction in which nothing ever moves."""
+    rows = [[x if i == k else 0 for i in range(3)] for k, x in enumerate(diagonal)]
+    known = {x: y for x, y in {"a": 0.0, "b": 1.0}.items() if x in diagonal}
+    found = [*doubts(Problem("b", "SO(3)", Inertia(rows), parameters=known), {})]
+    words = "the kinetic energy is 0 in some direction for the values of the parameters"
+    assert found == [words] * told
+
+
 TENSOR = [[0.5, 0.02, 0], [0.02, 0.6, 0], [0, 0, 0.8]]
 TURNS = {
     "rpy": ({"rpy": [0.3, -0.2, 0.7]}, Rotation.from_euler("xyz", [0.3, -0.2, 0.7])),

@@ -408,6 +408,11 @@ class ClaimedEquilibrium:
             return signature(self.on_the_leaf(form)) if self.dimension else (0, 0)
         return signature(q.scaled(-1, q.times(self.linear, self.tensor)))
 
+    @property
+    def _anywhere(self) -> bool:
+        """May motions start with any values of the variables?  Entries of g may not."""
+        return not any(isinstance(x, tuple) and x[1] == "A" for x in self.system.variables)
+
     def verdict(self, form: q.Matrix | None) -> str:
         """What is proved of its stability, by a form that is kept, or else by ω(Mv, v): the name
         of the sentence."""
@@ -424,7 +429,7 @@ class ClaimedEquilibrium:
                 return "on_the_leaf"
         elif self.grows:
             return "unstable"
-        if self.n == self.system.momenta and grows(self.characteristic_of_all):
+        if self._anywhere and grows(self.characteristic_of_all):
             return "unstable_beyond"
         return "open" if self.dimension else "point"
 

@@ -72,10 +72,11 @@ class Equilibrium:
 
     @property
     def _leaves(self) -> bool:
-        """Are all variables momenta, so that motions start anywhere, and has the linearisation off
-        the leaf, too, an eigenvalue with positive real part?"""
-        system = self.about.system
-        return system.momenta == len(system.variables) and grows(self.characteristic_of_all[::-1])
+        """Are all variables momenta, or what an algebra advects, so that motions start anywhere,
+        and has the linearisation off the leaf, too, an eigenvalue with positive real part?"""
+        others = self.about.system.variables[self.about.system.momenta :]
+        anywhere = all(isinstance(x, tuple) and x[1] == "Γ" for x in others)
+        return anywhere and grows(self.characteristic_of_all[::-1])
 
     @cached_property
     def characteristic_of_all(self) -> tuple[Number, ...]:
