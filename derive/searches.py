@@ -134,12 +134,12 @@ def _at_points(
 
 def _of_variables(problem: Problem, values: Mapping[str, Number]) -> dict[str, Number]:
     """The coordinates of a point by the names of the reduced variables: A_44 is A2_11 in the
-    problem, where its group is a product."""
-    from .problem.fields import state_names
+    problem, where its group is a product, and Gamma_1 is what an algebra advects first."""
+    from .problem.fields import known_in_lagrangian
     from .search.equilibria.equilibrium_points import coordinate
 
-    own = state_names(problem.own_group)
-    entries = {x for x, t in own.items() if isinstance(t, tuple) and t[1] == "A"}
+    own = known_in_lagrangian(problem.own_group, problem.advected)
+    entries = {x for x, t in own.items() if isinstance(t, tuple) and t[1] in ("A", "Γ")}
     return {coordinate(own[x]) if x in entries else x: v for x, v in values.items()}
 
 

@@ -63,6 +63,8 @@ def test_advected_coordinates_leave_a_leaf_too():
     }
     found = derive(problem_of(problem)).equilibria({"Gamma_3": 1})
     (x,) = found
+    same = derive(problem_of(problem)).equilibria({"u_3": 1})
+    assert same.record.steps == found.record.steps
     assert (x.verdict, x.growth) == ("unstable", pytest.approx(2))
     assert all(v.holds for v in found.check(1))
 
