@@ -370,9 +370,9 @@ class ClaimedEquilibrium:
 
     @cached_property
     def regular(self) -> bool:
-        """Has Λ its largest rank there, as the Casimirs prove?"""
+        """Has Λ its largest rank there, as the Casimirs prove?  Ranks of skew matrices are even."""
         there = self.system.anywhere
-        most = self.n - there.rank(self.system.casimirs)
+        most = (self.n - there.rank(self.system.casimirs)) // 2 * 2
         return there.poisson_rank == self.dimension == most
 
     @cached_property

@@ -159,10 +159,10 @@ def _with_levels(whole: IntegralsFound, flow: PolynomialSearch) -> IntegralsFoun
 
 @dataclass(frozen=True)
 class Integrability:
-    """``rank`` of the Poisson tensor on the reduced space of a ``dimension``, ``proved`` where as
-    many independent Casimirs are known as it leaves; ``involution``: the places of rank/2
-    integrals, 0 for H, independent of each other and of the Casimirs, in involution; () where
-    they are not known."""
+    """``rank`` of the Poisson tensor on the reduced space of a ``dimension``, ``proved`` where it
+    is the largest even number that the independent Casimirs leave; ``involution``: the places of
+    rank/2 integrals, 0 for H, independent of each other and of the Casimirs, in involution; ()
+    where they are not known."""
 
     dimension: int
     rank: int
@@ -190,7 +190,8 @@ def integrability(
     rows = [place.differential(f) for f in (algebra.energy, *map(over, integrals))]
     rank = poisson_rank(algebra, place)
     chosen = _commuting(_Involution(algebra, integrals, level), fixed, rows, rank // 2, at.p)
-    return Integrability(algebra.size, rank, algebra.size - len(fixed) == rank, chosen)
+    most = (algebra.size - len(fixed)) // 2 * 2  # a skew matrix has even rank
+    return Integrability(algebra.size, rank, rank == most, chosen)
 
 
 @dataclass(frozen=True)
