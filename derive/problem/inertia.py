@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from math import gcd, lcm
@@ -15,8 +16,8 @@ from ..language.derivatives import DIVISOR_PRIMES, residue
 from ..language.expression import names
 from ..language.laurent import TRIED, OverlongError, at_levels, is_layered, vanishes
 from ..language.rational import Matrix
-from ..language.tree import Tree, add, mul, plain
-from ..language.values import approximate, value
+from ..language.tree import Tree, add, mul, nodes, plain, replaced
+from ..language.values import approximate, elementary, value
 from ..schema.body_kinds import Body, GivenBody, MomentBody, PointBody
 from ..schema.kind import Parameter
 from .problem import Problem, points_of
@@ -25,8 +26,9 @@ from .solids import fault_of_quadric
 Vector = tuple[Any, ...]
 Rows = Sequence[Sequence[Tree]]
 
-ROUNDED, DIGITS = 10**9, 10**3
-"""One over the relative error that is allowed: of floats, and of moments in few digits."""
+ROUNDED, DIGITS, DOUBLES = 10**9, 10**3, 10**13
+"""One over the relative error that is allowed: of floats, and of moments in few digits; and, as
+``constants`` of the emitted code has it, of a metric."""
 LARGEST_SHOWN = 3
 """The rows of the largest matrix that a message writes out."""
 
@@ -67,10 +69,27 @@ def _kernel(group: Group, body: Body, values: _Values) -> Vector | None:
         return None
     if q.rank(m) == len(m) and not values.negative:
         return None
-    images = [q.times(e, m) for e in group.basis]
-    metric = tuple(tuple(_inner(image, f) for f in group.basis) for image in images)
-    kernel = q.nullspace(metric)
+    kernel = q.nullspace(_metric(group, m))
     return kernel[0] if kernel else None
+
+
+def _metric(group: Group, moments: Matrix) -> Matrix:
+    """Tr E_a m Ē_b."""
+    images = [q.times(e, moments) for e in group.basis]
+    return tuple(tuple(_inner(image, f) for f in group.basis) for image in images)
+
+
+def metric_is_positive(group: Group, body: Body, values: Mapping[str, float]) -> bool:
+    """Is the metric at g = 1 and the time 0 positive, by more than rounding, for some ``values`` of
+    the parameters?  Yes, where it has no value."""
+    known = {name: Fraction(x) for name, x in values.items()}
+    try:
+        metric = _metric(group, _moments(group, body, _Numbers(known)))
+    except (ArithmeticError, ValueError):
+        return True
+    span = range(len(metric))
+    rounding = [[abs(metric[i][i]) / DOUBLES * (i == j) for j in span] for i in span]
+    return q.definite(q.minus(metric, q.matrix(rounding)))
 
 
 def _inner(a: Matrix, b: Matrix) -> Fraction:
@@ -124,6 +143,13 @@ class _Values:
         return self._own.setdefault(function, Fraction(self._random.randint(1, 999), 1000))
 
 
+class _Numbers(_Values):
+    """Trees to the fractions that their values are in floats."""
+
+    def _opaque(self, *function: Fraction | str) -> Fraction:
+        return Fraction(math.pi if function == ("π",) else elementary(*function))
+
+
 def _words(group: Group, coordinates: Vector) -> str:
     """A direction in words: an axis for rotations of space, else the matrix Z."""
     x = _in_integers(coordinates)
@@ -175,8 +201,9 @@ def _listed(x: Vector) -> str:
 
 
 def negative_mass(body: Body | None, parameters: Mapping[str, Parameter]) -> str | None:
-    """Where a mass is negative, for the defaults of the parameters; ``None`` when nowhere."""
-    if isinstance(body, (GivenBody, MomentBody)) and is_negative(body.moments().m, parameters):
+    """Where a mass is negative, for the defaults of the parameters, at the time 0 where it flows;
+    ``None`` when nowhere."""
+    if isinstance(body, (GivenBody, MomentBody)) and _is_negative(body.moments().m, parameters):
         return "body: the mass"
     if isinstance(body, MomentBody):
         squares = ((f"J_{i}{i}", row[i - 1]) for i, row in enumerate(body.moments().J, 1))
@@ -187,7 +214,7 @@ def negative_mass(body: Body | None, parameters: Mapping[str, Parameter]) -> str
             if is_negative(density, parameters):
                 before = f", though not at {level - Fraction(1, TRIED)}," if level else ""
                 return f"body: the density of the {solid.kind} at the level s = {level}{before}"
-    where = (k for k, p in enumerate(points_of(body), 1) if is_negative(p.mass, parameters))
+    where = (k for k, p in enumerate(points_of(body), 1) if _is_negative(p.mass, parameters))
     return next((f"point {k}: key 'mass'" for k in where), None)
 
 
@@ -195,6 +222,11 @@ def is_negative(t: Tree, parameters: Mapping[str, Parameter]) -> bool:
     """Is it negative for the defaults of the parameters? No, where one has none."""
     found = approximate(t, defaults(parameters))
     return found is not None and found < 0
+
+
+def _is_negative(mass: Tree, parameters: Mapping[str, Parameter]) -> bool:
+    """The same at the time 0, for a mass that flows."""
+    return is_negative(replaced(mass, "t", 0), parameters)
 
 
 def defaults(parameters: Mapping[str, Parameter]) -> dict[str, float]:
@@ -218,13 +250,14 @@ def fault_of_quadrics(body: Body | None, values: Mapping[str, float], whose: str
 
 
 def impossible(group: Group, body: Body | None, parameters: Mapping[str, Parameter]) -> str:
-    """Why no masses have the moments, for the defaults of the parameters; "" where some have, or
-    where that is not known: J_c = J − m⁻¹cc̄ is not negative but for few digits, nor is any
-    kinetic energy ½ Tr Z J_c Z̄."""
+    """Why no masses have the moments, for the defaults of the parameters and at the time 0; ""
+    where some have, or where that is not known: J_c = J − m⁻¹cc̄ is not negative but for few
+    digits, nor is any kinetic energy ½ Tr Z J_c Z̄."""
     if body is None or isinstance(body, PointBody):
         return ""
     trees = body.moments().trees()
-    found = [approximate(t, defaults(parameters)) for t in trees]
+    when = " at t = 0" * any("t" in nodes(t) for t in trees)
+    found = [approximate(replaced(t, "t", 0), defaults(parameters)) for t in trees]
     numbers = [Fraction(x) for x in found if x is not None]
     if len(numbers) < len(trees):
         return ""
@@ -237,7 +270,7 @@ def impossible(group: Group, body: Body | None, parameters: Mapping[str, Paramet
         why = _negative(group, [[J[i][j] - c[i] * c[j] / m for j in span] for i in span])
     drawn = isinstance(body, GivenBody) and n == 3 and m > 0 and not body.given.central
     drawn = drawn and not _negative(group, J)
-    return f"no masses have these moments: {why}{f'; {CAD}' * drawn}" if why else ""
+    return f"no masses have these moments{when}: {why}{f'; {CAD}' * drawn}" if why else ""
 
 
 def negative_kinetic_energy(second: Rows, parameters: Mapping[str, Parameter]) -> str:
