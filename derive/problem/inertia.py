@@ -147,7 +147,8 @@ class _Numbers(_Values):
     """Trees to the fractions that their values are in floats."""
 
     def _opaque(self, *function: Fraction | str) -> Fraction:
-        return Fraction(math.pi if function == ("π",) else elementary(*function))
+        name, *at = function
+        return Fraction(elementary(str(name), float(*at)) if at else math.pi)
 
 
 def _words(group: Group, coordinates: Vector) -> str:
