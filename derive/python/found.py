@@ -78,7 +78,8 @@ class Steady(Judged):
 
 @dataclass(frozen=True)
 class Near(Finding, Judged):
-    """A relative equilibrium within a ``radius`` of decimals; ``record``: its derivation."""
+    """A relative equilibrium within a ``radius`` of decimals; ``record``: its derivation, which
+    tells these."""
 
     _search = "equilibria"
 
@@ -87,14 +88,13 @@ class Near(Finding, Judged):
 
     @property
     def at(self) -> dict[str, float]:
-        """The decimals, by the names of the coordinates."""
-        about = self.found.about
-        pairs = zip(about.system.variables, about.at, strict=True)
-        return {coordinate(v): float(x) for v, x in pairs}
+        """The doubles nearest to its coordinates, by their names."""
+        pairs = zip(self.found.about.system.variables, self.found.nearest, strict=True)
+        return {coordinate(v): x for v, x in pairs}
 
     @property
     def radius(self) -> float:
-        """How far each coordinate of the equilibrium is at most from the decimals."""
+        """How far each coordinate of the equilibrium is at most from the decimals that are told."""
         return float(self.found.radius)
 
 
