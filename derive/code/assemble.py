@@ -20,6 +20,7 @@ from .drift import TEXTS, drift, matrices
 from .factor import factored
 from .graph import Node, reachable
 from .group_functions import GroupFunctions
+from .inverses import start_of_masses
 from .kinks import kinks, may_bend
 from .lower import Lowering
 from .momentum_state import OF_Y, MomentumState, momentum_state, sentences
@@ -65,6 +66,8 @@ UNTESTED = (
     "not test it; where it is singular, dx/dt is without bound.",
 )
 
+OF_STATE = "constants does not know the masses of the state: it tests the mass matrix at t = 0 with"
+
 Check = tuple[Node, Node | None]
 """A node that must be positive, and the scale of its rounding error."""
 
@@ -95,7 +98,7 @@ def assemble(
     if frame:
         wanted["energy"] = [lowering.graph.product((frame.unit, *wanted["energy"]))]
         wanted |= _inertia(frame.old) | frame_changes(frame, lowering.reader)
-    checks = [(x, size) for x, size in lowering.inverses.checks if x.op != "num" or x.data <= 0]
+    checks = [(x, size) for x, size in lowering.inverses.tests() if x.op != "num" or x.data <= 0]
     checks += frame.regular if frame else []
     found = [*_several(checks), *_several(wanted.values()), *(frame.nodes() if frame else ())]
     parameters = _used_parameters(d, found, chosen)
@@ -147,7 +150,11 @@ def _said(d: Derivation, forces: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
 def _told_besides(lowering: Lowering, chosen: Options) -> list[str]:
     """What a header says of what is not tested, and of variations."""
     found = [*(LOCAL * lowering.inverses.local + UNTESTED * lowering.inverses.untested)]
-    return found + textwrap.wrap(of_variations(lowering.reader.space), 90) * bool(chosen.varied)
+    space = lowering.reader.space
+    if stored := start_of_masses(lowering.record.problem, space.stored):
+        told = ", ".join(f"{name} = {x!r}" for name, x in stored.items())
+        found += textwrap.wrap(f"{OF_STATE} {told}.", 90)
+    return found + textwrap.wrap(of_variations(space), 90) * bool(chosen.varied)
 
 
 def _further(

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from fractions import Fraction
+from functools import cached_property
 from itertools import combinations, combinations_with_replacement
 from operator import mul
 from random import Random
+from typing import Any
 
 from ..algebra.factor_charts import COORDINATES
 from ..language import rational as q
@@ -34,12 +36,13 @@ class Inverses:
     ``checks``: what must be positive, and the scale of its rounding error; ``local``: do they hold
     the metric at g = 1 alone?  ``definite``: is M that of masses, or of any Lagrangian?
     ``untested``: such an M depends on the state.  ``sure``: is it singular wherever a test of it
-    fails?
+    fails?  ``changing``: what is inverted and changes, maybe with masses that flow alone.
     """
 
     def __init__(self, reader: RecordReader):
         self.reader, self.graph, self.group = reader, reader.graph, reader.group
         self.checks: list[tuple[Node, Node | None]] = []
+        self.changing: dict[Tree, Matrix] = {}
         self.local = self.untested = False
         self.sure = True
         self.definite = "lagrangian" not in reader.record.problem
@@ -53,6 +56,7 @@ class Inverses:
             square = q.times(space.inverse, q.transposed(space.inverse))
             return self.reader.entries(square, "inv_C")
         value, name = self.reader.tree(t), name_of(("inv", t))
+        self.changing[t] = ((value,),) if isinstance(value, Node) else value
         if isinstance(value, Node):
             if value.stage == PARAMETER:
                 self.checks.append((value, None))
@@ -78,7 +82,7 @@ class Inverses:
     def mass_fault(self) -> str:
         """What ``constants`` says that the mass matrix is, where a test fails."""
         if self.definite:
-            return "singular or not positive"
+            return "singular or not positive" + " at t = 0" * bool(self._start)
         return "singular" if self.sure else "singular, or a diagonal block of it"
 
     def require_regular(self) -> None:
@@ -93,7 +97,7 @@ class Inverses:
 
     def solved(self, t: Tree, right: Matrix) -> Matrix:
         """The column x with t x = right, for a symmetric t; its checks are noted."""
-        value = matrix(self.reader.tree(t))
+        value = self.changing[t] = matrix(self.reader.tree(t))
         if blocks := self._chosen(value):
             return self._by_blocks(t, value, blocks, right, "_solve")
         factors = dense.factorised(self.graph, value, self._namer(name_of(t)))
@@ -227,20 +231,47 @@ class Inverses:
             self._check([] if pivot else [(self.graph.recip(x), scale)])
 
     def _check(self, checks: Iterable[tuple[Node, Node | None]]) -> None:
-        """Note checks that are not noted yet; of masses that flow they are at the time 0,
-        of those that are of the state at their defaults."""
-        if self.reader.record.problem.get("flows"):
-            start = {self.reader.leaf("t", "time"): self.graph.num(0)}
-            for name, leaf in self.reader.space.stored.items():
-                about = self.reader.record.problem["parameters"][name]
-                start[leaf] = self.graph.num(Fraction(repr(about["default"] or 1.0)))
+        """Note checks that are not noted yet, of masses that flow at the start."""
+        if start := self._start:
             checks = [(replaced(x, start), size and replaced(size, start)) for x, size in checks]
         self.checks += [x for x in dict.fromkeys(checks) if x not in self.checks]
+
+    def tests(self) -> list[tuple[Node, Node | None]]:
+        """The checks, when all is lowered; with those of what changes with masses that flow alone,
+        as it is at the start: nothing of this is computed elsewhere."""
+        g, start = self.graph, self._start
+        for t, value in self.changing.items() if start else ():
+            still = tuple(tuple(replaced(x, start) for x in row) for row in value)
+            if dense.stage_of(value) == PARAMETER or dense.stage_of(still) != PARAMETER:
+                continue
+            try:
+                inverse, pivots = dense.symmetric_inverse(g, still, self._namer(f"{name_of(t)}_0"))
+            except ZeroDivisionError:  # singular then, whatever the parameters
+                self._check([(g.num(0), None)])
+            else:
+                self._check_pivots(t, still, pivots)
+                self._check_diagonal(t, still, inverse)
+        return self.checks
+
+    @cached_property
+    def _start(self) -> dict[Node, Node]:
+        """Where masses flow, the time 0, and those that are of the state by default."""
+        if not self.reader.record.problem.get("flows"):
+            return {}
+        leaves = self.reader.space.stored
+        known = start_of_masses(self.reader.record.problem, leaves)
+        numbers = {leaf: self.graph.num(Fraction(repr(known[x]))) for x, leaf in leaves.items()}
+        return {self.reader.leaf("t", "time"): self.graph.num(0), **numbers}
 
     def _unit_determinant(self, t: Tree) -> bool:
         """Is it A or C = ĀA, in a record that says det A = 1?"""
         equations = self.reader.equations
         return t in ("A", "C") and any((e.lhs, e.rhs) == (("det", "A"), 1) for _, e in equations)
+
+
+def start_of_masses(problem: Mapping[str, Any], stored: Iterable[str]) -> dict[str, float]:
+    """The masses that are of the state, each with the number at which it is tested."""
+    return {name: problem["parameters"][name]["default"] or 1.0 for name in stored}
 
 
 def _positive(x: object) -> bool:

@@ -17,7 +17,7 @@ from .emitted import Emitted
 from .first_numbers import MotionError
 from .native import AT_EVENT, CompileError, Integers, constants, ensemble
 from .run import Array, called
-from .simulate import require_mass, require_values
+from .simulate import has_inertia, require_mass, require_values
 from .start import OFF_THE_GROUP, Start, start
 from .trajectory import TOLERANCE, Method, instants, reflection, taken_to_group, why_unreached
 
@@ -336,7 +336,8 @@ class EnsembleMotions:
         k, wrong = constants(self.library, p, len(self.code.program.constants))
         size = x.shape[1]
         status, states = part.status, part.states[..., :size]
-        status[:] = wrong != 0
+        regular = [has_inertia(self.code, self.problem, *pair) for pair in zip(x, p, strict=True)]
+        status[:] = (wrong != 0) | ~np.array(regular)
         h, before = np.zeros(len(x)), 0.0
         for j, t in enumerate(self.t.tolist()):
             if t == 0:

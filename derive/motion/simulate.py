@@ -15,7 +15,7 @@ from ..language.expression import names
 from ..language.show import show
 from ..language.tree import Tree, nodes, replaced
 from ..language.values import approximate
-from ..problem.inertia import fault_of_quadrics
+from ..problem.inertia import defaults, fault_of_quadrics, metric_is_positive
 from ..problem.problem import Problem, points_of
 from ..schema.body_kinds import GivenBody, PointBody, by_block
 from ..schema.potential_kinds import Attraction, Spring
@@ -150,6 +150,11 @@ def beginning(
         raise MotionError(f"{code.name}: {fault}")
     require_values(code, begin)
     k = _constants(code, problem, begin)
+    if not has_inertia(code, problem, begin.x, begin.p):
+        state = dict(zip(code.program.state, begin.x, strict=True))
+        masses = ", ".join(f"{x} = {state[x]:g}" for x in problem.stored)
+        told = f"the mass matrix is singular or not positive at the start, with {masses}"
+        raise MotionError(f"{code.name}: {told}")
     with np.errstate(all="ignore"):
         rates = code.python.rhs(0.0, begin.x, k, begin.u)
         energy = float(code.python.energy(0.0, begin.x, k))
@@ -226,6 +231,17 @@ def _constants(code: Emitted, problem: Problem, begin: Start) -> Array:
         wrong = [f"{name} = {m:g}" for name, m in found if m is not None and m < 0]
         why = f": a mass is negative, {', '.join(wrong)}" if wrong else ""
         raise MotionError(f"{error}{why}") from None
+
+
+def has_inertia(code: Emitted, problem: Problem, x: Array, p: Array) -> bool:
+    """Is the metric positive at a start, of masses of the state, which ``constants`` does not
+    know?"""
+    if not problem.stored or problem.body is None:
+        return True
+    emitted = [x[0] for x in code.program.parameters]
+    numbers = zip((*emitted, *code.program.state), (*p, *x), strict=True)
+    values = {**defaults(problem.parameters), **dict(numbers)}
+    return metric_is_positive(problem.own_group, problem.body, values)
 
 
 def require_values(code: Emitted, begin: Start) -> None:

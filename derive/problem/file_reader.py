@@ -25,7 +25,7 @@ from ..schema.table_reader import NAME, TableReader
 from .entries_on_orbit import with_constant_entries
 from .fields import is_entry, known_in_lagrangian, meant, state_names
 from .force_reader import ForceReader, Vector
-from .inertia import first_moment, given_by, require_symmetric, second_moment
+from .moments import first_moment, given_by, require_symmetric, second_moment
 from .problem import ProblemError, SolidError, points_of
 from .solids import (
     fault_of_quadric,

@@ -1,33 +1,33 @@
-"""Checks of a body on its group: does every direction move some mass, is its metric invariant?  And
-the moments of a file, carried to m, c and J."""
+"""Checks of a body on its group: does every direction move some mass, is its metric invariant?"""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from fractions import Fraction
-from math import gcd, lcm, sqrt
+from math import gcd, lcm
 from random import Random
 from typing import Any, Literal
 
 from ..algebra.groups import Group
 from ..algebra.relations import for_every_body, pairings, skew
 from ..language import rational as q
-from ..language.derivatives import DIVISOR_PRIMES, product, quotient, residue
+from ..language.derivatives import DIVISOR_PRIMES, residue
 from ..language.expression import names
-from ..language.laurent import TRIED, OverlongError, at_levels, collected, is_layered, vanishes
+from ..language.laurent import TRIED, OverlongError, at_levels, is_layered, vanishes
 from ..language.rational import Matrix
-from ..language.tree import Tree, add, mul, neg, plain
-from ..language.values import approximate, value
+from ..language.tree import Tree, add, mul, nodes, plain, replaced
+from ..language.values import approximate, elementary, value
 from ..schema.body_kinds import Body, GivenBody, MomentBody, PointBody
 from ..schema.kind import Parameter
-from ..schema.table import Rows
-from .problem import Problem, ProblemError, points_of
-from .solids import Row, fault_of_quadric
+from .problem import Problem, points_of
+from .solids import fault_of_quadric
 
 Vector = tuple[Any, ...]
 
-ROUNDED, DIGITS = 10**9, 10**3
-"""One over the relative error that is allowed: of floats, and of moments in few digits."""
+ROUNDED, DIGITS, DOUBLES = 10**9, 10**3, 10**13
+"""One over the relative error that is allowed: of floats, and of moments in few digits; and, as
+``constants`` of the emitted code has it, of a metric."""
 LARGEST_SHOWN = 3
 """The rows of the largest matrix that a message writes out."""
 
@@ -68,10 +68,27 @@ def _kernel(group: Group, body: Body, values: _Values) -> Vector | None:
         return None
     if q.rank(m) == len(m) and not values.negative:
         return None
-    images = [q.times(e, m) for e in group.basis]
-    metric = tuple(tuple(_inner(image, f) for f in group.basis) for image in images)
-    kernel = q.nullspace(metric)
+    kernel = q.nullspace(_metric(group, m))
     return kernel[0] if kernel else None
+
+
+def _metric(group: Group, moments: Matrix) -> Matrix:
+    """Tr E_a m Ē_b."""
+    images = [q.times(e, moments) for e in group.basis]
+    return tuple(tuple(_inner(image, f) for f in group.basis) for image in images)
+
+
+def metric_is_positive(group: Group, body: Body, values: Mapping[str, float]) -> bool:
+    """Is the metric at g = 1 and the time 0 positive, by more than rounding, for some ``values`` of
+    the parameters?  Yes, where it has no value."""
+    known = {name: Fraction(x) for name, x in values.items()}
+    try:
+        metric = _metric(group, _moments(group, body, _Numbers(known)))
+    except (ArithmeticError, ValueError):
+        return True
+    span = range(len(metric))
+    rounding = [[abs(metric[i][i]) / DOUBLES * (i == j) for j in span] for i in span]
+    return q.definite(q.minus(metric, q.matrix(rounding)))
 
 
 def _inner(a: Matrix, b: Matrix) -> Fraction:
@@ -125,6 +142,14 @@ class _Values:
         return self._own.setdefault(function, Fraction(self._random.randint(1, 999), 1000))
 
 
+class _Numbers(_Values):
+    """Trees to the fractions that their values are in floats."""
+
+    def _opaque(self, *function: Fraction | str) -> Fraction:
+        name, *at = function
+        return Fraction(elementary(str(name), float(*at)) if at else math.pi)
+
+
 def _words(group: Group, coordinates: Vector) -> str:
     """A direction in words: an axis for rotations of space, else the matrix Z."""
     x = _in_integers(coordinates)
@@ -176,8 +201,9 @@ def _listed(x: Vector) -> str:
 
 
 def negative_mass(body: Body | None, parameters: Mapping[str, Parameter]) -> str | None:
-    """Where a mass is negative, for the defaults of the parameters; ``None`` when nowhere."""
-    if isinstance(body, (GivenBody, MomentBody)) and is_negative(body.moments().m, parameters):
+    """Where a mass is negative, for the defaults of the parameters, at the time 0 where it flows;
+    ``None`` when nowhere."""
+    if isinstance(body, (GivenBody, MomentBody)) and _is_negative(body.moments().m, parameters):
         return "body: the mass"
     if isinstance(body, MomentBody):
         squares = ((f"J_{i}{i}", row[i - 1]) for i, row in enumerate(body.moments().J, 1))
@@ -188,7 +214,7 @@ def negative_mass(body: Body | None, parameters: Mapping[str, Parameter]) -> str
             if is_negative(density, parameters):
                 before = f", though not at {level - Fraction(1, TRIED)}," if level else ""
                 return f"body: the density of the {solid.kind} at the level s = {level}{before}"
-    where = (k for k, p in enumerate(points_of(body), 1) if is_negative(p.mass, parameters))
+    where = (k for k, p in enumerate(points_of(body), 1) if _is_negative(p.mass, parameters))
     return next((f"point {k}: key 'mass'" for k in where), None)
 
 
@@ -196,6 +222,11 @@ def is_negative(t: Tree, parameters: Mapping[str, Parameter]) -> bool:
     """Is it negative for the defaults of the parameters? No, where one has none."""
     found = approximate(t, defaults(parameters))
     return found is not None and found < 0
+
+
+def _is_negative(mass: Tree, parameters: Mapping[str, Parameter]) -> bool:
+    """The same at the time 0, for a mass that flows."""
+    return is_negative(replaced(mass, "t", 0), parameters)
 
 
 def defaults(parameters: Mapping[str, Parameter]) -> dict[str, float]:
@@ -219,13 +250,14 @@ def fault_of_quadrics(body: Body | None, values: Mapping[str, float], whose: str
 
 
 def impossible(group: Group, body: Body | None, parameters: Mapping[str, Parameter]) -> str:
-    """Why no masses have the moments, for the defaults of the parameters; "" where some have, or
-    where that is not known: J_c = J − m⁻¹cc̄ is not negative but for few digits, nor is any
-    kinetic energy ½ Tr Z J_c Z̄."""
+    """Why no masses have the moments, for the defaults of the parameters and at the time 0; ""
+    where some have, or where that is not known: J_c = J − m⁻¹cc̄ is not negative but for few
+    digits, nor is any kinetic energy ½ Tr Z J_c Z̄."""
     if body is None or isinstance(body, PointBody):
         return ""
     trees = body.moments().trees()
-    found = [approximate(t, defaults(parameters)) for t in trees]
+    when = " at t = 0" * any("t" in nodes(t) for t in trees)
+    found = [approximate(replaced(t, "t", 0), defaults(parameters)) for t in trees]
     numbers = [Fraction(x) for x in found if x is not None]
     if len(numbers) < len(trees):
         return ""
@@ -238,7 +270,7 @@ def impossible(group: Group, body: Body | None, parameters: Mapping[str, Paramet
         why = _negative(group, [[J[i][j] - c[i] * c[j] / m for j in span] for i in span])
     drawn = isinstance(body, GivenBody) and n == 3 and m > 0 and not body.given.central
     drawn = drawn and not _negative(group, J)
-    return f"no masses have these moments: {why}{f'; {CAD}' * drawn}" if why else ""
+    return f"no masses have these moments{when}: {why}{f'; {CAD}' * drawn}" if why else ""
 
 
 def doubt_of_metric(second: Sequence[Sequence[Tree]], parameters: Mapping[str, Parameter]) -> str:
@@ -253,7 +285,7 @@ def doubt_of_metric(second: Sequence[Sequence[Tree]], parameters: Mapping[str, P
     if least < -sum(abs(M[k][k]) for k in range(len(M))) / ROUNDED:
         told = f"its matrix has the eigenvalue {float(least):.4g}"
         return f"the kinetic energy is negative in some direction: {told}"
-    elsewhere = _values(second, {x: sqrt(k + 1 / 3) for k, x in enumerate(given, 1)})
+    elsewhere = _values(second, {x: math.sqrt(k + 1 / 3) for k, x in enumerate(given, 1)})
     if elsewhere and q.rank(q.matrix(M)) < q.rank(q.matrix(elsewhere)):
         return "the kinetic energy is 0 in some direction for the values of the parameters"
     return ""
@@ -352,81 +384,3 @@ def _moment_trees(problem: Problem, body: Body) -> tuple[tuple[Tree, ...], ...]:
             tuple(add(*(mul(m, r[i], r[j]) for m, r in masses)) for j in span) for i in span
         )
     return body.moments().J
-
-
-# The moments of a file, carried to m, c and J: by the centre of mass, by a tensor of inertia.
-
-MEANINGS = {
-    "c": "the first moment, mass times centre of mass",
-    "centre": "the centre of mass",
-    "J": "the matrix of moments about the origin",
-    "I": "the tensor of inertia about the origin",
-    "I_centre": "that about the centre of mass",
-}
-"""How a body's first and second moments are given; I in R³ alone."""
-
-
-def given_by(given: Mapping[str, Any], names: tuple[str, ...], where: str) -> str:
-    """The one key of some that is there."""
-    found = [x for x in names if x in given]
-    if len(found) != 1:
-        listed = ", or ".join(f"{x}, {MEANINGS[x]}" for x in names)
-        raise ProblemError(f"{where}: give {'one of ' * (len(names) > 1)}{listed}")
-    return found[0]
-
-
-def first_moment(mass: Tree, centre: Row) -> Row:
-    """c = m s."""
-    return tuple(_exact(product(mass, x)) for x in centre)
-
-
-def second_moment(name: str, rows: Rows, mass: Tree, first: Row, where: str) -> Rows:
-    """J, from itself or from a tensor of inertia, I or I_centre; in the plane ½ I 1 stands for
-    I."""
-    J = rows if name == "J" or len(rows) == 2 else _from_inertia(rows)
-    return _from_centre(J, mass, first, where) if name == "I_centre" else J
-
-
-def require_symmetric(rows: Rows, where: str) -> None:
-    """``ProblemError`` where a matrix is not equal to its transpose."""
-    if any(rows[i][j] != rows[j][i] for i in range(len(rows)) for j in range(i)):
-        raise ProblemError(f"{where}: the matrix must be symmetric")
-
-
-def _from_inertia(tensor: Rows) -> Rows:
-    """J = ½ (Tr I) 1 − I, from I = (Tr J) 1 − J."""
-    span = range(3)
-    half = [_half(*(tensor[j][j] for j in span if j != i), neg(tensor[i][i])) for i in span]
-    return tuple(tuple(half[i] if i == j else neg(tensor[i][j]) for j in span) for i in span)
-
-
-def _from_centre(J: Rows, mass: Tree, first: Row, where: str) -> Rows:
-    """J + c c̄/m, from J about the centre of mass (Steiner)."""
-    if mass == 0:
-        raise ProblemError(f"{where}, m: a body without mass has no centre of mass")
-
-    def entry(i: int, j: int) -> Tree:
-        return _exact(add(J[i][j], quotient(product(first[i], first[j]), mass)))
-
-    span = range(len(first))
-    return tuple(tuple(entry(min(i, j), max(i, j)) for j in span) for i in span)
-
-
-def _exact(t: Tree) -> Tree:
-    """The same with like terms added, a number where it is one."""
-    try:
-        found = collected(t)
-    except OverlongError:
-        raise ProblemError(
-            "body, given: centre or I_centre is too long to be carried to the origin; give c and I "
-            "or J, or a parameter of its own for each sum"
-        ) from None
-    return int(found) if isinstance(found, Fraction) and found.denominator == 1 else found
-
-
-def _half(*terms: Tree) -> Tree:
-    """½ Σ, a number where all terms are."""
-    numbers = [x for x in terms if isinstance(x, (int, Fraction))]
-    if len(numbers) < len(terms):
-        return collected(mul(Fraction(1, 2), add(*terms)))
-    return plain(Fraction(sum(numbers), 2))

@@ -10,6 +10,7 @@ from typing import Any
 
 import sympy
 
+from ..language.intervals import Interval
 from ..language.reserved import suffixed
 from ..language.show import show
 from ..language.tree import Tree
@@ -77,7 +78,8 @@ class Steady(Judged):
 
 @dataclass(frozen=True)
 class Near(Finding, Judged):
-    """A relative equilibrium within a ``radius`` of decimals; ``record``: its derivation."""
+    """A relative equilibrium within a ``radius`` of decimals; ``record``: its derivation, which
+    tells these."""
 
     _search = "equilibria"
 
@@ -86,14 +88,13 @@ class Near(Finding, Judged):
 
     @property
     def at(self) -> dict[str, float]:
-        """The decimals, by the names of the coordinates."""
-        about = self.found.about
-        pairs = zip(about.system.variables, about.at, strict=True)
-        return {coordinate(v): float(x) for v, x in pairs}
+        """The doubles nearest to its coordinates, by their names."""
+        pairs = zip(self.found.about.system.variables, self.found.nearest, strict=True)
+        return {coordinate(v): x for v, x in pairs}
 
     @property
     def radius(self) -> float:
-        """How far each coordinate of the equilibrium is at most from the decimals."""
+        """How far each coordinate of the equilibrium is at most from the decimals that are told."""
         return float(self.found.radius)
 
 
@@ -157,8 +158,8 @@ class Families(SeveralFound[InLetters]):
 
 @dataclass(frozen=True)
 class Trimmed(Finding):
-    """An equilibrium under inputs.  ``found``: all that is known of it, exact numbers; ``record``:
-    its derivation."""
+    """An equilibrium under inputs.  ``found``: all that is known of it, exact numbers or narrow
+    bounds; ``record``: its derivation, with fewer decimals and their radius."""
 
     _search = "trim"
 
@@ -167,12 +168,12 @@ class Trimmed(Finding):
 
     @property
     def x(self) -> list[float]:
-        """The state, in the order of the emitted code."""
+        """The state, in the order of the emitted code, each number the nearest double."""
         return [*map(float, self.found.state.values())]
 
     @property
     def u(self) -> list[float]:
-        """All inputs, in that order."""
+        """All inputs, in that order, likewise."""
         return [*map(float, self.found.inputs.values())]
 
     @property
@@ -186,7 +187,8 @@ class Trimmed(Finding):
         return self.found.eigenvalues
 
     def __repr__(self) -> str:
-        inputs = ", ".join(f"{x} = {y}" for x, y in self.found.inputs.items())
+        numbers = zip(self.found.inputs.items(), self.u, strict=True)
+        inputs = ", ".join(f"{x} = {v if isinstance(y, Interval) else y}" for (x, y), v in numbers)
         return f"<trim, {self.verdict}: {inputs or 'no inputs'}>"
 
 

@@ -96,7 +96,7 @@ def test_engine_and_checker_enclose_where_it_is_below_a_half(kappa):
     width, exact = contraction(terms)
     assert abs(exact - kappa) < 0.01
     try:
-        radius, (positive, negative) = certified(terms, 2, 0)
+        radius, (positive, negative), y = certified(terms, 2, 0)
     except NoEquilibriumError:
         radius = None
     fault = enclosure_fault(told(terms), group("SO(2) x SO(2)"), "left")
@@ -104,6 +104,7 @@ def test_engine_and_checker_enclose_where_it_is_below_a_half(kappa):
     if radius is not None:
         assert radius == width
         (x,) = critical(terms, float(width))
+        assert np.allclose([*map(float, y)], x, rtol=0, atol=1e-9)
         there = sympy.hessian(summed(terms), Y).subs(dict(zip(Y, x, strict=True)))
         signs = np.sign(np.linalg.eigvalsh(np.array(there, float)))
         assert (sum(signs > 0), sum(signs < 0)) == (positive, negative)
@@ -141,6 +142,13 @@ def critical_by_hand(y, level):
     return [*(pi / MOMENTS + a * gamma), *(WEIGHT + a * pi + 2 * b * gamma), *above]
 
 
+def nothing_moves(x):
+    """Are the rates of Euler and Poisson 0, and is Γ a unit vector, to rounding?"""
+    pi, gamma = x[:3], x[3:]
+    rates = np.cross(pi, pi / MOMENTS) + np.cross(gamma, WEIGHT), np.cross(gamma, pi / MOMENTS)
+    return np.allclose(rates, 0, atol=1e-15) and abs(gamma @ gamma - 1) < 1e-15
+
+
 def slopes(x):
     """The linearised Euler–Poisson equations."""
     pi, gamma = x[:3], x[3:]
@@ -158,7 +166,9 @@ def test_an_equilibrium_beside_scipy(name):
     multipliers = [float(y) for y in found.found.multipliers]
     true = fsolve(critical_by_hand, [*x, *multipliers], args=(level,), xtol=1e-12)
     assert np.allclose(critical_by_hand(true, level), 0, atol=1e-12)
-    assert max(abs(true[:6] - x)) <= found.radius < 1e-5
+    decimals = np.array([*map(float, found.found.about.at)])
+    assert max(abs(true[:6] - decimals)) <= found.radius < 1e-5
+    assert nothing_moves(x)
     assert match(np.linalg.eigvals(slopes(true[:6])), found.eigenvalues, 1e-4)
     assert orbit_signature(true[:6], MOMENTS, WEIGHT) == found.signature
     assert found.verdict == VERDICTS[name]

@@ -92,6 +92,23 @@ def test_a_drone_leans_into_a_wind_of_three_components():
     assert holds(found)
 
 
+def test_a_motion_begins_at_the_doubles_that_are_handed_out():
+    """They are the nearest ones: of the thrust, beside another source of its digits, and on the
+    group to rounding, so that a motion from there, without --project, stays."""
+    made = derive(blown(3, 2, 1))
+    found = made.trim({}, ["eta_1", "eta_2", "f"])
+    with mpmath.workdps(40):
+        drag = mpmath.sqrt(14) / 2
+        thrust = mpmath.norm([-3 * drag, -2 * drag, 20 - drag])
+    assert found.u == [float(thrust)]
+    A = np.reshape(found.x[:9], (3, 3))
+    assert np.allclose(A @ A.T, np.eye(3), rtol=0, atol=1e-15)
+    assert "f = 19.34" in repr(found)
+    names = dict(zip(found.found.state, found.x, strict=True))
+    run = made.simulate(2.0, start=names | {"f": found.u[0]})
+    assert max(abs(run[f"w_{k}"]).max() for k in (1, 2, 3)) < 1e-12
+
+
 def test_the_speed_of_a_tilt_against_a_cubic_drag():
     force = ["-0.1*v_1 - 0.05*v_1^3", "-0.1*v_2 - 0.05*v_2^3"]
     drag = {"name": "drag", "frame": "space", "at": [0, 0], "force": force}

@@ -10,10 +10,11 @@ from scipy.integrate import solve_ivp
 import derive
 from derive.check.checker import Checker
 from derive.language.tree import add
-from derive.problem.toml import problem_of
+from derive.problem.toml import doubts, problem_of
+from derive.schema.kind import Parameter
 from tests.oracles import relative_error
 from tests.oracles.control_volume import Leaking
-from tests.support.library import arrange, library, module_of
+from tests.support.library import ONE_BUILD, arrange, emission, library, module_of
 from tests.support.needs import present
 from tests.support.walks import own_verdicts, stands
 
@@ -138,6 +139,93 @@ def test_a_motion_ends_before_its_mass_is_used_up():
     with pytest.raises(ValueError, match=told):
         late.simulate(12.0)
     assert abs(early.simulate(12.0)["t"][-1] - 5) < 1e-9
+
+
+BURNING = {
+    "name": "burning",
+    "parameters": {"a": 9.0, "b": RATE, "J11": 3.0, "J22": 4.0, "J12": 0.5, "c1": 0.4, "c2": 0.3},
+    "flow": [{"at": [0.3, -0.2], "rate": "-b", "velocity": [1, -SPEED]}],
+}
+
+
+def burning(what):
+    """A body by its moments, of which the first two axes have letters; of R(2), and of a product,
+    three points, of which all masses but the first are in the last block."""
+    n, (flow,) = int(what[-2]), BURNING["flow"]
+    more = [0] * (n - 2)
+    J = [["J11 + t", "J12", *more], ["J12", "J22 - t", *more], *[[0, 0, 5]] * (n - 2)]
+    given = {"m": "a - b*t", "c": ["c1*(1 + t)", "c2 - t/9", *more], "J": J}
+    body = {"body": {"given": given}}
+    flow = {k: [*x, *more] if isinstance(x, list) else x for k, x in flow.items()}
+    data = BURNING | {"group": what, "flow": [flow]}
+    if what[-4] == "R" or "x" in what:
+        masses = zip(("a - b*t", "c1", "c2"), ([1, 1], [1, 0], [0, 1]), strict=True)
+        points = [{"mass": m, "at": at, "block": 2} for m, at in masses]
+        points[0]["block"] = 1
+        one = [{k: v for k, v in x.items() if k != "block"} for x in points]
+        body = {"point": points if "x" in what else one}
+        data |= {"parameters": {k: v for k, v in BURNING["parameters"].items() if k[0] != "J"}}
+    return data | body
+
+
+def least(what, p):
+    """The least eigenvalue at t = 0 of twice the kinetic energy as a form of (ω, v), by hand."""
+    m, c = p["a"], np.array([p["c1"], p["c2"], 0.0])
+    if what == "R(2)":
+        return m + c.sum()
+    J = np.diag([p["J11"], p["J22"], 5.0 * (what[-2] == "3")])
+    J[0, 1] = J[1, 0] = p["J12"]
+    first = np.inf
+    if "x" in what:
+        m, J, first = c.sum(), np.diag(c), 2 * p["a"]
+    shift = np.array([[0, -c[2], c[1]], [c[2], 0, -c[0]], [-c[1], c[0], 0]])
+    whole = np.block([[np.trace(J) * np.eye(3) - J, shift], [shift.T, m * np.eye(3)]])
+    kept = [0, 1, 2, 3, 4, 5] if what[-2] == "3" else [2, 3, 4]
+    kept = [k for k in kept if k < 3] if what[:2] + what[-5:-3] == "SOSO" else kept
+    return min(first, np.linalg.eigvalsh(whole[np.ix_(kept, kept)]).min())
+
+
+@pytest.mark.parametrize("what", ["SE(3)", "SO(3)", "SE(2)", "SO(2)", "R(2)", "SO(2) x SE(2)"])
+def test_constants_refuses_a_metric_that_is_not_positive_at_first(what):
+    """And no other, in every draw; which is refused in each language."""
+    problem, rng = problem_of(burning(what)), np.random.default_rng(11)
+    builds = ["python", *(ONE_BUILD[y] for y in ("c", "javascript", "rust", "julia"))]
+    codes = [library(x, problem) for x in builds if x == "python" or present("cc")]
+    seen = set()
+    for k in range(30):
+        p = {x: rng.normal() * (3 if x[0] != "c" else 1) + 2 for x in module_of(problem).PARAMETERS}
+        drawn = {**dict.fromkeys(BURNING["parameters"], 1.0), **p}
+        expected = least(what, drawn)
+        if abs(expected) < 1e-6:
+            continue
+        for code in codes if k < 8 else codes[:1]:
+            assert (code.constants([*p.values()])[0] in (0, None)) == (expected > 0), (p, code)
+        seen.add(expected > 0)
+    assert seen == {True, False}
+
+
+def test_it_is_told_when_a_metric_is_tested():
+    """At t = 0: the engine doubts it, as that of a body that loses nothing; in code and a motion it
+    is refused."""
+    problem = problem_of(burning("SE(3)"))
+    bad = replace(problem, parameters={**problem.parameters, "a": Parameter(default=0.01)})
+    for given, what in (({}, bad), ({"a": 0.01}, problem)):
+        told = [*doubts(what, given)]
+        assert len(told) == 1
+        assert "no masses have these moments at t = 0: J − c c̄/m must be positive" in told[0]
+    assert not [*doubts(problem, {})]
+    with pytest.raises(ValueError, match="matrix is singular or not positive at t = 0"):
+        derive.derive(problem).simulate(0.1, start={"a": 0.01})
+    header = emission(problem, ("c",))[1]["burning.h"]
+    assert "a mass matrix that is singular or not positive at t = 0" in header
+
+
+def test_moments_of_numbers_that_no_masses_have_at_first_are_refused():
+    J = [["1", 0, 0], [0, "1 + t", 0], [0, 0, "-3"]]
+    body = {"given": {"m": "2 - t", "c": [0, 0, 0], "J": J}}
+    flow = [{"at": [0, 0, 0], "rate": -1, "velocity": [0, 0, 0]}]
+    with pytest.raises(ValueError, match="no masses have these moments at t = 0"):
+        problem_of({"name": "test", "group": "SO(3)", "body": body, "flow": flow})
 
 
 def test_a_record_with_another_flow_is_seen():

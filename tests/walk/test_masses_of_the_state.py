@@ -12,7 +12,7 @@ import derive
 from derive.check.checker import Checker
 from derive.command.cli import main
 from derive.language.tree import add, nodes
-from derive.problem.toml import problem_of
+from derive.problem.toml import doubts, problem_of
 from derive.record.as_json import from_json, to_data
 from derive.record.record import RecordError
 from tests.oracles import relative_error
@@ -283,6 +283,26 @@ GRAIN = {
     "flow": [{"at": [0, 0, -0.5], "mass": "fuel", "rate": "-b*throttle", "velocity": [0, 0, -9]}],
 }
 """It burns from its surface: J is no linear function of what is left."""
+
+
+def test_the_metric_is_tested_at_the_masses_of_the_start():
+    """Which constants does not know: it takes those by default, and the header says so; a motion
+    those that it starts with. About the third axis the moment is fuel − 2."""
+    J = [["fuel - 3", 0, 0], [0, 1, 0], [0, 0, 4]]
+    body = {"given": {"m": "8 + fuel", "c": [0, 0, "-fuel/2"], "J": J}}
+    problem = problem_of(GRAIN | {"body": body})
+    made = derive.derive(problem)
+    assert made.simulate(0.1)["fuel"][0] == 6
+    told = "grain: the mass matrix is singular or not positive at the start, with fuel = 1"
+    with pytest.raises(ValueError, match=told):
+        made.simulate(0.1, start={"fuel": 1.0})
+    m = module_of(problem)
+    assert "it tests the mass matrix at t = 0 with fuel = 6.0" in " ".join(m.__doc__.split())
+    m.constants([0.3])
+    little = problem_of(GRAIN | {"body": body, "parameters": {"fuel": 1.0, "b": 0.3}})
+    with pytest.raises(ValueError, match="singular or not positive at t = 0"):
+        module_of(little).constants([0.3])
+    assert any("no masses have these moments" in x for x in doubts(problem, {"fuel": 1.0}))
 
 
 def test_a_second_moment_may_be_any_function_of_the_fuel():

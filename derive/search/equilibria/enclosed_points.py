@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from math import ceil
+from math import ceil, prod
 from typing import Any
 
 from ...language import rational as q
@@ -25,8 +25,8 @@ from .equilibrium_points import (
 )
 from .stability import eigenvalues
 
-DIGITS = 10**6
-"""Decimals are of so many parts of 1."""
+DIGITS, BITS = 10**6, 128
+"""Decimals are of so many parts of 1; digits after the point, in fractions."""
 STEPS = 60
 """The most steps of Newton's method."""
 
@@ -40,7 +40,7 @@ class Enclosed:
     """An equilibrium within ``radius`` of a point, in each coordinate and multiplier.  ``about``:
     the point x̂; ``level``: the values c of the Casimirs; ``multipliers``: λ̂; ``signature``: of the
     form on the level; ``eigenvalues``: about those of the linearised rates at x̂; ``grows``: has
-    one of them a positive real part, surely?"""
+    one of them a positive real part, surely?  ``nearest``: the doubles next to its coordinates."""
 
     about: About
     level: tuple[Fraction, ...]
@@ -49,6 +49,7 @@ class Enclosed:
     signature: tuple[int, int]
     eigenvalues: tuple[complex, ...]
     grows: bool
+    nearest: tuple[float, ...]
 
     @property
     def verdict(self) -> str:
@@ -68,12 +69,13 @@ def enclosed(whole: IntegralsFound, values: Mapping[str, Number], on: Elements) 
     about = About(system, (*map(_rounded, x),))
     found = [_rounded(y) for y in multipliers]
     function = lagrange_function(about, kept, level, found)
-    radius, signature = certified(function, len(x) + len(found), len(found))
+    radius, signature, y = certified(function, len(x) + len(found), len(found))
     if not near_the_group(about, kept, level, radius, on):
         raise NoEquilibriumError(NOT_ON_THE_GROUP)
     values_near = eigenvalues([e.slope for e in about.rates])
     unstable = 0 not in signature and grows(about, kept, radius)
-    return Enclosed(about, (*level,), (*found,), radius, signature, values_near, unstable)
+    nearest = tuple(float(rational(a) + b) for a, b in zip(about.at, y, strict=False))
+    return Enclosed(about, (*level,), (*found,), radius, signature, values_near, unstable, nearest)
 
 
 def start_of(system: LiePoisson, values: Mapping[str, Number]) -> tuple[Fraction, ...]:
@@ -142,9 +144,11 @@ def rational(x: Number) -> Fraction:
     return x
 
 
-def certified(function: Terms, size: int, casimirs: int) -> tuple[Fraction, tuple[int, int]]:
-    """The radius within which there is one critical point, and the signature on the level;
-    ``NoEquilibriumError`` where Newton's step is not proved to contract."""
+def certified(
+    function: Terms, size: int, casimirs: int
+) -> tuple[Fraction, tuple[int, int], list[Fraction]]:
+    """The radius within which there is one critical point, the signature on the level, and that
+    point to many digits; ``NoEquilibriumError`` where Newton's step is not proved to contract."""
     places = range(size)
 
     def derivative(*chosen: int) -> Fraction:
@@ -168,7 +172,24 @@ def certified(function: Terms, size: int, casimirs: int) -> tuple[Fraction, tupl
     if contraction(inverse, change) >= Fraction(1, 2):
         raise NoEquilibriumError(NOT_ISOLATED)
     positive, negative = signs(diagonalised([[*row] for row in second]))
-    return radius, (positive - casimirs, negative - casimirs)
+    return radius, (positive - casimirs, negative - casimirs), _critical_point(function, inverse)
+
+
+def _critical_point(function: Terms, inverse: q.Matrix) -> list[Fraction]:
+    """The critical point by Newton's steps, each of which at least halves the distance from it."""
+    places, step, unit = range(len(inverse)), [Fraction(1)], 2**BITS  # rounding is below 8 units
+    y = [Fraction(0) for _ in places]
+
+    def slope(i: int) -> Fraction:
+        terms = ((m, c * m[i]) for m, c in function.items() if m[i])
+        return sum(
+            (c * prod(y[j] ** (m[j] - (i == j)) for j in places) for m, c in terms), Fraction(0)
+        )
+
+    while max(map(abs, step)) * unit > 8:
+        step = [*q.flatten(q.times(inverse, q.column(map(slope, places))))]
+        y = [Fraction(round((a - b) * unit), unit) for a, b in zip(y, step, strict=True)]
+    return y
 
 
 def one_digit_above(x: Fraction) -> Fraction:

@@ -12,6 +12,7 @@ from fractions import Fraction
 from typing import Any
 
 from ...language.derivatives import power
+from ...language.intervals import Interval
 from ...language.tree import Tree, add, mul, neg, nodes
 from ...language.univariate import (
     Number,
@@ -120,6 +121,15 @@ def _enclosure(whole: IntegralsFound, x: Enclosed, made_from: Iterable[Step], c:
     if x.verdict != "stable":
         prose += draft.claim("enclosure.eigenvalues", eigenvalues=_about(x.eigenvalues))
     return draft.step(equations, prose)
+
+
+def decimal(x: Any, radius: Fraction) -> Any:
+    """The decimals of an interval or a float, one more than a radius has, which is a power of ten;
+    an exact number as it is."""
+    if not isinstance(x, float | Interval):
+        return x
+    near = x.middle if isinstance(x, Interval) else Fraction(x)
+    return round(near * 10 / radius) * radius / 10
 
 
 def scientific(x: Fraction) -> Tree:

@@ -27,7 +27,7 @@ from ...record.record import Step
 from ...record.sentence import Prose
 from ...walk.chapter import Chapter, Draft
 from .cayley_chart import chart_slopes, conjugated, turned
-from .equilibrium_steps import scientific
+from .equilibrium_steps import decimal, scientific
 from .stability import eigenvalues, polynomial
 from .steady_velocity import EXACTLY, FLOATS, SAME, Arithmetic, NoTrimError, Rates
 
@@ -334,9 +334,9 @@ class Trim:
 @dataclass(frozen=True)
 class EnclosedTrim(Trim):
     """One of which is proved that it is the only one within a ``radius`` of ``near``, velocities,
-    turns of g and inputs by name, and of the exact numbers of ``start``; decimals of these, and of
-    the entries of g that are ``changed``, stand in ``state`` and ``inputs``, and ``matrix`` is one
-    of intervals; ``right``: does ξ stand before g?"""
+    turns of g and inputs by name, and of the exact numbers of ``start``; narrow bounds of these, of
+    entries of g ``changed`` and what changes with them stand in ``state`` and ``inputs``, and
+    ``matrix`` is one of intervals; ``right``: does ξ stand before g?"""
 
     near: Numbers
     start: Numbers
@@ -392,12 +392,13 @@ def _says_enclosed(trim: EnclosedTrim, group: Group, draft: Draft) -> Prose:
     if trim.along:
         kind, more = "trim.near_along", {"along": _along(trim, group)}
     prose = draft.claim(kind, near=near, point=point, radius=radius, **more)
+    told = {x: decimal(y, trim.radius) for x, y in trim.state.items()}
     if trim.changed:
-        entries = _equations((_named(x, group, trim), trim.state[x]) for x in trim.changed)
+        entries = _equations((_named(x, group, trim), told[x]) for x in trim.changed)
         side = "trim.near_turned_on_the_left" if trim.right else "trim.near_turned"
         prose += draft.claim(side, entries=entries, radius=radius)
     if trim.along:
-        moving = [(_named(x, group, trim), y) for x, y in _velocity(trim, group).items() if y]
+        moving = [(_named(x, group, trim), told[x]) for x in _velocity(trim, group) if told[x]]
         prose += draft.claim("trim.near_velocity", entries=_equations(moving), radius=radius)
     return prose + draft.claim(f"trim.near_{trim.verdict}")
 

@@ -30,6 +30,7 @@ from ...language.intervals import Interval, UnknownSignError, function, krawczyk
 from ...language.rational import Matrix
 from ...language.univariate import Number, Quadratic, RootError
 from ...problem.problem import Problem
+from .equilibrium_steps import decimal
 from .steady_velocity import (
     AT_ZERO,
     DEPENDENT,
@@ -195,7 +196,7 @@ class EnclosedQuestion(Question):
             self.require_element()
             y = approximately(f, self.near, INTERVALS)
             radius = _radius(y)
-            near = [_decimal(x, radius / 10) for x in y]
+            near = [decimal(x, radius) for x in y]
             box = self.enclosed(f, near, radius)
             x, u = self.at(box)
             matrix = self.linear(x, u)
@@ -206,8 +207,8 @@ class EnclosedQuestion(Question):
             random = Random(1)
             self.require_steady(*self.at([a + random.gauss(0, 1 + abs(a)) for a in y]))
         return EnclosedTrim(
-            dict(zip(self.program.state, (_told(a, radius) for a in x), strict=True)),
-            dict(zip(self.program.inputs, (_told(a, radius) for a in u), strict=True)),
+            dict(zip(self.program.state, x, strict=True)),
+            dict(zip(self.program.inputs, u, strict=True)),
             self.free,
             self.sought,
             tuple(tuple(map(Interval.of, row)) for row in matrix),
@@ -286,16 +287,6 @@ def _radius(y: Sequence[float]) -> Fraction:
     while 10**power < largest:
         power += 1
     return Fraction(10) ** (power - DIGITS)
-
-
-def _decimal(x: Any, unit: Fraction) -> Fraction:
-    """The multiple of a unit that is nearest."""
-    return round(Fraction(x) / unit) * unit
-
-
-def _told(x: Any, radius: Fraction) -> Any:
-    """A number as it is told: an exact one, or decimals."""
-    return _decimal(x.middle, radius / 10) if isinstance(x, Interval) else x
 
 
 def trimmed(
