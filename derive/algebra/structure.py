@@ -311,6 +311,14 @@ class TorusLattice:
         found = ("_".join(str(x).replace("-", "m") for x in n) for n in self.half_plane)
         return tuple(f"{part}_{x}" for x in found for part in ("re", "im"))
 
+    def position(self, n: Place) -> tuple[int, bool]:
+        """Where Re ω̂(n) stands among these, Im being next to it; and is ω̂(n) the conjugate?"""
+        first, second = self.representative(n)
+        turned = second < 0 or (second == 0 and first < 0)
+        a, b = (-first, -second) if turned else (first, second)
+        place = a - 1 if b == 0 else self.half + (b - 1) * self.N + a + self.half
+        return 2 * place, turned
+
     def representative(self, n: Place) -> Place:
         """The representative of n modulo N."""
         a, b = ((x + self.half) % self.N - self.half for x in n)

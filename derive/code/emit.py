@@ -37,7 +37,7 @@ from .signatures import SIZES, functions
 from .step.algorithms import ALGORITHMS
 from .step.step_numbers import IN_FLOAT, VARIED, steps
 from .step.tableaux import METHODS
-from .torus_program import Loops, printed_sums
+from .torus_loops import Loops, printed_sums
 
 STANDARDS = {"_fmu.xml": ".fmu", "_fmi2.xml": "_fmi2.fmu"}
 """How the name of a description ends → that of its archive."""

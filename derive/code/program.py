@@ -250,7 +250,7 @@ class Program:
     reduced: int = 0
     """The variables of the Poisson tensor."""
     loops: Any = None
-    """On the torus the tables of its loops (``torus_program.Loops``), where it has them."""
+    """On the torus the tables of its loops (``torus_loops.Loops``), where it has them."""
     masses: tuple[str, ...] = ()
     """Those that are numbers of the state, its last."""
     on_torus: bool = False

@@ -8,16 +8,13 @@ which the program says its tables alone; each language has the loops as function
 
 from __future__ import annotations
 
-import math
 import textwrap
 from collections import defaultdict
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import reduce
-from typing import Any, NamedTuple
-
-import mpmath
+from typing import Any
 
 from ..algebra.structure import Place, TorusLattice
 from ..language.expression import names
@@ -26,26 +23,17 @@ from ..language.tree import Tree, mul
 from ..language.values import value
 from ..record.as_json import decode
 from ..record.record import Derivation
-from ..routines import printer_of, text_of
 from .assemble import parameter
 from .dense import Complex
 from .factor import factored
 from .graph import Graph, Node
 from .naming import ClaimedNames, plain_text
 from .options import Options
-from .program import EmittedFunction, Load, LoweringError, Program
+from .program import EmittedFunction, LoweringError, Program
 from .requests import require_options
 from .schedule import Scheduler, frontier, leaf_places
+from .torus_loops import CONSERVED, TABLE, looped, loops
 from .watched_functions import EmittedEvent, table, values_of
-
-
-def position(torus: TorusLattice, n: Place) -> tuple[int, bool]:
-    """Where Re ω̂(n) stands in the state, Im being next to it; and is ω̂(n) the conjugate?"""
-    first, second = torus.representative(n)
-    turned = second < 0 or (second == 0 and first < 0)
-    a, b = (-first, -second) if turned else (first, second)
-    place = a - 1 if b == 0 else torus.half + (b - 1) * torus.N + a + torus.half
-    return 2 * place, turned
 
 
 def turned(name: str) -> str:
@@ -166,7 +154,7 @@ class WrittenOut:
         """That of n, ω̂(n) by the state or f̂(n) by the input."""
         if self.torus.representative(n) == (0, 0):
             return Complex(self.graph.num(0), self.graph.num(0))
-        j, conjugate = position(self.torus, n)
+        j, conjugate = self.torus.position(n)
         return Complex(given[j], -given[j + 1] if conjugate else given[j + 1])
 
     def sine(self, k: int) -> Node:
@@ -198,45 +186,6 @@ class WrittenOut:
 
 WRITTEN_OUT = 5
 """The largest N that is written out: at 7 the loops take the same time, and 4 % of the text."""
-TABLE = 7
-"""The largest N of which C has a table of terms: at 9 the matrices take less time."""
-POWERS = (2, 3, 4)
-CONSERVED = tuple(f"trace_{k}" for k in POWERS)
-"""What ``conserved`` gives: Tr Wᵏ/N, in space the mean of the k-th power of the vorticity."""
-DIGITS = 60
-"""To so many cosines and pi are known before they are rounded: the same on every machine."""
-
-
-class Term(NamedTuple):
-    """One of the terms of dω̂(n)/dt: c times the product of two coefficients, by their places in the
-    state, and −1 for a conjugate."""
-
-    first: int
-    second: int
-    sign: int
-    other: int
-    c: Fraction
-
-
-@dataclass(frozen=True)
-class Loops:
-    """The tables of the loops for one N: cos and sin of 2πk/N; for small N the terms of each rate;
-    and what the functions with loops, by ``names``, cost.  ``driven``: is there an input?
-    ``damping``: so many constants are coefficients of powers of |n|²."""
-
-    N: int
-    names: frozenset[str]
-    cosines: tuple[Fraction, ...]
-    sines: tuple[Fraction, ...]
-    table: tuple[tuple[Term, ...], ...]
-    operations: Mapping[str, str]
-    driven: bool = False
-    damping: int = 0
-
-    @property
-    def scale(self) -> Fraction:
-        """1/4π, as a double."""
-        return _rounded(1 / (4 * Fraction(math.pi)))
 
 
 def torus_program(
@@ -250,12 +199,12 @@ def torus_program(
     chosen = options or Options()
     require_on_torus(d, chosen)
     outside = Outside.of(d, torus)
-    functions = _looped(torus, outside)
+    functions = looped(torus, outside)
     if not chosen.conserved:
         del functions["conserved"]
     own, constants = (_written_out if torus.N <= WRITTEN_OUT else _constants)(d, torus, outside)
     functions |= own
-    looped = {*functions} - {*own}
+    with_loops = {*functions} - {*own}
     acting = outside.described()
     if events:
         functions["events"] = _watched(d.name, torus, events)
@@ -285,7 +234,7 @@ def torus_program(
         functions,
         conserved=CONSERVED if chosen.conserved else (),
         events=table(events),
-        loops=loops(torus, looped, outside) if looped else None,
+        loops=loops(torus, with_loops, outside) if with_loops else None,
         on_torus=True,
     )
 
@@ -359,127 +308,3 @@ def _watched(name: str, torus: TorusLattice, events: Sequence[EmittedEvent]) -> 
     time = {graph.leaf("t", "time"): ("t", ("t", 0))}
     places = leaf_places(claimed, state.values(), "x") | time
     return Scheduler(claimed, {}).function(found, places)
-
-
-# -- loops ---------------------------------------------------------------------------------------
-
-
-def loops(torus: TorusLattice, looped: Collection[str], outside: Outside) -> Loops:
-    """The tables for one N."""
-    N, h = torus.N, torus.half
-    turn, product = 4 * h * (h + 1) ** 2, 4 * N**3
-    by_three = 3 * N**3  # products of complex numbers by three real ones
-    whole, least = 3 * turn + product, 3 * turn + by_three
-    driven, damping = bool(outside.inputs), len(outside.damping)
-    by_table = N <= TABLE and not (driven or damping)
-    table = tuple(_terms(torus, n) for n in torus.half_plane) if by_table else ()
-    few = (N * N - 1) * (driven + (damping + 1) * bool(damping))  # of what acts from outside
-    terms = sum(map(len, table))
-    return Loops(
-        N,
-        frozenset(looped) | ({"rhs_batch"} if "rhs" in looped else set()),
-        tuple(_rounded(_cosine(Fraction(k, N))) for k in range(N)),
-        tuple(_rounded(_cosine(Fraction(k, N) - Fraction(1, 4))) for k in range(N)),
-        table,
-        {
-            "rhs": f"{whole} mul, {whole} add, and {6 * N * N + few} of less order",
-            "rhs by table": f"{8 * terms} mul, {4 * terms} add",
-            "rhs by three": f"{least} mul, {least} add, and {9 * N * N + few} of less order",
-            "energy": f"{N * N - 1} mul, {N * N - 1} add, {(N * N - 1) // 2} div",
-            "conserved": f"{turn + product} mul, {turn + product} add",
-            "conserved by three": f"{turn + by_three} mul, {turn + by_three} add",
-        },
-        driven,
-        damping,
-    )
-
-
-def _terms(torus: TorusLattice, n: Place) -> tuple[Term, ...]:
-    """The terms of dω̂(n)/dt, m and n − m together: their sines are opposite."""
-    found = []
-    with mpmath.workdps(DIGITS):
-        pi = Fraction(str(mpmath.pi))
-    for m in torus.places:
-        other = torus.representative((n[0] - m[0], n[1] - m[1]))
-        weight = Fraction(1, _square(m)) - Fraction(1, _square(other)) if any(other) else 0
-        crossed = (m[0] * n[1] - m[1] * n[0]) % torus.N
-        if m < other and weight and crossed:
-            (i, turned), (j, turned_too) = position(torus, m), position(torus, other)
-            sine = _cosine(Fraction(crossed, torus.N) - Fraction(1, 4))
-            c = -_rounded(sine * weight * torus.N / (2 * pi))
-            found.append(Term(i, j, -1 if turned else 1, -1 if turned_too else 1, c))
-    return tuple(found)
-
-
-def _square(n: Place) -> int:
-    return n[0] ** 2 + n[1] ** 2
-
-
-def _rounded(x: Fraction) -> Fraction:
-    """The double next to x."""
-    return Fraction(float(x))
-
-
-def _cosine(turns: Fraction) -> Fraction:
-    """cos 2π·turns."""
-    with mpmath.workdps(DIGITS):
-        half_turns = mpmath.mpf(2 * turns.numerator) / turns.denominator
-        return Fraction(str(mpmath.cospi(half_turns)))
-
-
-def _looped(torus: TorusLattice, outside: Outside) -> dict[str, EmittedFunction]:
-    """Functions of which only what they read and how much they write is said here."""
-
-    def hollow(count: int, reads: str = "x") -> EmittedFunction:
-        return EmittedFunction(tuple(Load(x, x, 0) for x in reads), (), (Fraction(0),) * count)
-
-    of_rates = "x" + "u" * bool(outside.inputs) + "k" * bool(outside.damping)
-    return {
-        "rhs": hollow(torus.N**2 - 1, of_rates),
-        "energy": hollow(1),
-        "conserved": hollow(len(POWERS)),
-    }
-
-
-OF_MATRICES = ("rhs", "conserved")
-
-
-def printed_sums(language: str, loops: Loops, fields: Mapping[str, Any]) -> dict[str, Any]:
-    """The bodies of these functions by their names; the tables and functions that they need."""
-    N, prefix = loops.N, fields["prefix"]
-    M = N // 2 + 1
-    # in C rows of a multiple of four numbers, which compilers take several at a time
-    pad = 4 if language == "c" else 1
-    given = {
-        "N": N,
-        "M": M,
-        "HALF": N // 2,
-        "ROW": -(-N // pad) * pad,
-        "COLUMNS": -(-M // pad) * pad,
-        "PADDED": pad > 1,
-        "DRIVEN": loops.driven,
-        "DAMPED": loops.damping > 0,
-        "POWERS": loops.damping,
-        "FOURS": N - N % 4,
-        "SIZE": float(N),
-        "SCALE": float(loops.scale),
-        "COSINES": [*map(float, loops.cosines)],
-        "SINES": [*map(float, loops.sines)],
-        "inline": f"{prefix}_FUNCTION" if fields["header"] else "static",
-        "item": ["#[allow(clippy::all, clippy::pedantic)]", "#[rustfmt::skip]"],
-    }
-    printer = printer_of(language, [text_of("torus_sums")], given, prefix, fields["real"])
-    routines = printer.source.routines
-    by_table = {"rhs"} if loops.table and language == "c" else set()
-    named = loops.names & {*fields["functions"]} & {*routines} - by_table
-    of_matrices = bool({*OF_MATRICES} & named)
-    tables = [*printer.tables()] if of_matrices else []
-    bodies = {}
-    for x in sorted(named):
-        bodies[x] = "\n".join(printer.body(routines[x]))
-        tables += printer.before
-    return {
-        "bodies": bodies,
-        "tables": "\n".join(tables),
-        "functions": printer.text(["waves", "matrix_of", "added", "row"]) if of_matrices else "",
-    }
