@@ -7,16 +7,14 @@ import math
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import mpmath
 
 from ..algebra.structure import Place, TorusLattice
 from ..routines import printer_of, text_of
 from .program import EmittedFunction, Load
-
-if TYPE_CHECKING:
-    from .torus_program import Outside
+from .torus_forcing import Outside
 
 TABLE = 7
 """The largest N of which C has a table of terms: at 9 the matrices take less time."""

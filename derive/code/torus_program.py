@@ -8,30 +8,26 @@ which the program says its tables alone; each language has the loops as function
 
 from __future__ import annotations
 
-import textwrap
 from collections import defaultdict
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from fractions import Fraction
 from functools import reduce
 from typing import Any
 
 from ..algebra.structure import Place, TorusLattice
-from ..language.expression import names
-from ..language.show import show
 from ..language.tree import Tree, mul
 from ..language.values import value
-from ..record.as_json import decode
 from ..record.record import Derivation
 from .assemble import parameter
 from .dense import Complex
 from .factor import factored
 from .graph import Graph, Node
-from .naming import ClaimedNames, plain_text
+from .naming import ClaimedNames
 from .options import Options
 from .program import EmittedFunction, LoweringError, Program
 from .requests import require_options
 from .schedule import Scheduler, frontier, leaf_places
+from .torus_forcing import Outside
 from .torus_loops import CONSERVED, TABLE, looped, loops
 from .watched_functions import EmittedEvent, table, values_of
 
@@ -53,43 +49,6 @@ def described(torus: TorusLattice) -> tuple[str, ...]:
         f"j = n1 - 1 for n2 = 0, n1 = 1 ... {h};",
         f"j = {h} + {torus.N} (n2 - 1) + n1 + {h} for n2 = 1 ... {h}, n1 = -{h} ... {h}.",
     )
-
-
-@dataclass(frozen=True)
-class Outside:
-    """What acts from outside in a record: the names of the numbers of its input; ``damping``: a
-    coefficient for each power of |n|², 0 where there is none; ``parameters``: those in these."""
-
-    inputs: tuple[str, ...]
-    damping: tuple[Tree, ...]
-    parameters: tuple[str, ...]
-
-    @staticmethod
-    def of(d: Derivation, torus: TorusLattice) -> Outside:
-        """That of a record."""
-        told = {x["power"]: decode(x["coefficient"], "damping") for x in d.problem["damping"]}
-        inputs = (f"{x['name']}_{y}" for x in d.problem["inputs"] for y in torus.coefficients)
-        used = {name for t in told.values() for name in names(t)}
-        return Outside(
-            tuple(inputs),
-            tuple(told.get(p, 0) for p in range(max(told, default=-1) + 1)),
-            tuple(x for x in d.problem["parameters"] if x in used),
-        )
-
-    def described(self) -> tuple[str, ...]:
-        """In words, for the head of a file."""
-        found = ["and F = sum f(n) T_n is what acts from outside, where f(n) has"]
-        if self.inputs:
-            name = self.inputs[0].removesuffix("_re_1_0")
-            found.append(
-                f"the input {name}: Re and Im of its coefficients, in the order of the state;"
-            )
-        if self.damping:
-            size = {0: ""} | {p: f" |n|^{2 * p}" for p in range(1, len(self.damping))}
-            coefficients = ((p, plain_text(show(t))) for p, t in enumerate(self.damping) if t != 0)
-            told = [f"({t if t.isascii() else 'a number'}){size[p]}" for p, t in coefficients]
-            found += textwrap.wrap(f"the damping -({' + '.join(told)}) omega(n);", 88)
-        return tuple(found) if self.inputs or self.damping else ()
 
 
 class WrittenOut:
