@@ -21,7 +21,18 @@ from .faults import Explanation, explained
 from .opened import Opened, opened
 from .pairs import of_two
 from .told import NEAR, told
-from .user_states import RATES, WORDS, Item, Table, drawn, ours, own_blocks, rates, read
+from .user_states import (
+    RATES,
+    WORDS,
+    Item,
+    Table,
+    drawn,
+    ours,
+    own_angles,
+    own_blocks,
+    rates,
+    read,
+)
 from .users_code import Array, Call, CompareError, values
 
 AGREES = 1e-9
@@ -82,7 +93,7 @@ class Comparison:
     def in_the_users(self, difference: Array) -> Array:
         """A difference in our numbers as the smallest one in the user's, (N, size)."""
         items = self.table.items
-        if not any(x.name in WORDS for x in items):
+        if not any(x.name in WORDS or x.angle for x in items):
             places = [self.program.state.index(x.name) for x in items]
             units: Array = np.array([x.unit for x in items])
             return np.asarray(difference[:, places] * units)
@@ -100,7 +111,8 @@ def comparison(
     program, code = make(problem, False)
     default = _default(problem, program, path, function)
     blocks = _blocks(problem, program, code)
-    table = read(as_, default, blocks, problem.parameters)
+    angles = own_angles(problem.group.in_user_basis, program.state) if problem.group else {}
+    table = read(as_, default, blocks, problem.parameters, angles, program.by_block)
     if function and len(table.calls) == 1:
         table = replace(table, calls=(replace(table.calls[0], name=function),))
     known = {name: x.default for name, x in problem.parameters.items()} | dict(table.parameters)
@@ -267,7 +279,7 @@ def _of_places(c: Comparison, off: Array, known: Array) -> list[str]:
         factor = 1 + float((off[:, place] * right[:, place]).sum()) / square if square else 1.0
         rest = off[:, place] - (factor - 1) * right[:, place]
         if np.abs(rest).max() <= NEAR * np.abs(right).max():
-            lines.append(f"  {told(f'the rate of {item.name}', 1.0, factor, {})[0]}")
+            lines.append(f"  {told(f'the rate of {item}', 1.0, factor, {})[0]}")
             continue
         for words, table in c.table.others():
             to, x = c.ours(table), c.given["x"]
@@ -275,11 +287,11 @@ def _of_places(c: Comparison, off: Array, known: Array) -> list[str]:
             taken = rates(to, x, c.dx) - c.rates(to(x))
             own = [c.program.state.index(y) for y in c.blocks.get(_block_of(item), ())]
             if own and np.abs(taken[:, own]).max() <= AGREES * np.abs(known).max():
-                lines.append(f"  the rate of {item.name} is right if {words}")
+                lines.append(f"  the rate of {item} is right if {words}")
                 break
         else:
             of = "flow" if item.name in c.problem.stored else "velocity"
-            lines.append(f"  the rate of {item.name} is not that of its {of}")
+            lines.append(f"  the rate of {item} is not that of its {of}")
     return lines
 
 
