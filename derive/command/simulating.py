@@ -67,7 +67,8 @@ def command_compare(args: argparse.Namespace) -> int:
     with working(args.problem):
         held = comparison(problem, made, Path(args.file), args.function, table, seed, states)
         agrees, lines = reports(held, made)
-    print(*map(one_line, lines), sep="\n")
+        for line in lines:
+            print(one_line(line), flush=True)
     return 0 if agrees else 1
 
 

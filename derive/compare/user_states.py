@@ -67,9 +67,8 @@ class Angle:
 def own_angles(group: Group, state: Sequence[str]) -> dict[str, Angle]:
     """The angles of a group by their names in the code of ``--attitude angle``, of those factors
     that one angle tells, beside T."""
-    places = {
-        (t[2] - 1, t[3] - 1): x for x, t in state_names(group).items() if x in state and is_entry(t)
-    }
+    entries = {x: t for x, t in state_names(group).items() if x in state and isinstance(t, tuple)}
+    places = {(t[2] - 1, t[3] - 1): x for x, t in entries.items() if is_entry(t)}
     found = {}
     for chart in factor_charts(group, "angle").values():
         rows = range(chart.offset, chart.offset + chart.size)
