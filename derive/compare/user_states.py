@@ -203,14 +203,7 @@ def read(
         raise CompareError(f"{path}: units: a unit is not 0")
     items = []
     for name in listed:
-        said = told.get(name, {}) if name in WORDS else {}
-        where = f"{path}: [{name}]"
-        if not isinstance(said, dict):
-            raise CompareError(f"{where}: expected a table")
-        _require_known(said, WORDS.get(name, {}), where)
-        words = {key: said.get(key, x[0]) for key, x in WORDS.get(name, {}).items()}
-        for key, word in words.items():
-            _require_known([word], WORDS[name][key], f"{where}: {key}")
+        words = _said(told.get(name, {}), name, f"{path}: [{name}]") if name in WORDS else {}
         own = by_block.get(name, name)
         items.append(Item(own, words, units.get(name, 1.0), angles.get(name), name))
     inputs = _texts(told.get("inputs", [*default.inputs]), f"{path}: inputs")
@@ -230,6 +223,17 @@ def read(
     )
     _require_whole(found, state, blocks, str(path))
     return found
+
+
+def _said(table: Any, name: str, where: str) -> dict[str, str]:
+    """What a table says of a block, and what is meant where it says nothing."""
+    if not isinstance(table, dict):
+        raise CompareError(f"{where}: expected a table")
+    _require_known(table, WORDS[name], where)
+    words = {key: table.get(key, x[0]) for key, x in WORDS[name].items()}
+    for key, word in words.items():
+        _require_known([word], WORDS[name][key], f"{where}: {key}")
+    return words
 
 
 def _in_blocks(items: tuple[Item, ...], blocks: Mapping[str, tuple[str, ...]]) -> tuple[Item, ...]:
