@@ -259,10 +259,10 @@ def _causes(c: Comparison, make: Made, off: Array, known: Array, size: Array) ->
     if not found.told_apart:
         yield "  these are not told apart by the numbers"
     if not found.changes:
-        if not found.stopped:
-            yield "  no change of our equations that was tried explains this"
+        so_far = " so far" * bool(found.stopped)
+        yield f"  no change of our equations that was tried{so_far} explains this"
         if found.nearest:
-            yield f"  nearest{' so far' * bool(found.stopped)}: {found.nearest}"
+            yield f"  nearest{so_far}: {found.nearest}"
     if found.stopped:
         raise found.stopped
 
