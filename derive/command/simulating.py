@@ -21,6 +21,7 @@ from ..code.naming import own_prefix
 from ..code.options import Options
 from ..code.program import Program
 from ..compare.comparison import MOST, STATES, comparison, reports
+from ..motion import signals
 from ..motion.emitted import python_of
 from ..motion.emitted_code import parts
 from ..motion.ensemble import (
@@ -67,7 +68,8 @@ def command_compare(args: argparse.Namespace) -> int:
     with working(args.problem):
         held = comparison(problem, made, Path(args.file), args.function, table, seed, states)
         agrees, lines = reports(held, made)
-    print(*map(one_line, lines), sep="\n")
+        for line in lines:
+            print(one_line(line), flush=True)
     return 0 if agrees else 1
 
 
@@ -133,6 +135,8 @@ def start_of(args: argparse.Namespace, problem: Problem, record: Derivation) -> 
     chosen = each_once("--set", args.set)
     if args.state:
         given, doubt = state_file(Path(args.state), problem, record)
+        table = signals.read(args.input)[0].names if args.input else ()
+        given = {x: y for x, y in given.items() if x not in table}
         if doubt:
             print(f"derive: warning: {one_line(f'{args.state}: {doubt}')}", file=sys.stderr)
     own = names_by_block(problem.group) if problem.group else {}

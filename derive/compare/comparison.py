@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, replace
-from itertools import product
+from itertools import chain, product
 from pathlib import Path
 from types import ModuleType
 from typing import Any
@@ -17,11 +17,22 @@ from ..language.limits import Refused
 from ..motion.first_numbers import first_numbers
 from ..problem.problem import Problem
 from .balance import Balance, Made
-from .faults import Explanation, explained
+from .faults import Explanation, best, explained
 from .opened import Opened, opened
 from .pairs import of_two
-from .told import NEAR, told
-from .user_states import RATES, WORDS, Item, Table, drawn, ours, own_blocks, rates, read
+from .told import NEAR, Hypothesis, told
+from .user_states import (
+    RATES,
+    WORDS,
+    Item,
+    Table,
+    drawn,
+    ours,
+    own_angles,
+    own_blocks,
+    rates,
+    read,
+)
 from .users_code import Array, Call, CompareError, values
 
 AGREES = 1e-9
@@ -82,7 +93,7 @@ class Comparison:
     def in_the_users(self, difference: Array) -> Array:
         """A difference in our numbers as the smallest one in the user's, (N, size)."""
         items = self.table.items
-        if not any(x.name in WORDS for x in items):
+        if not any(x.name in WORDS or x.angle for x in items):
             places = [self.program.state.index(x.name) for x in items]
             units: Array = np.array([x.unit for x in items])
             return np.asarray(difference[:, places] * units)
@@ -100,7 +111,8 @@ def comparison(
     program, code = make(problem, False)
     default = _default(problem, program, path, function)
     blocks = _blocks(problem, program, code)
-    table = read(as_, default, blocks, problem.parameters)
+    angles = own_angles(problem.group.in_user_basis, program.state) if problem.group else {}
+    table = read(as_, default, blocks, problem.parameters, angles, program.by_block)
     if function and len(table.calls) == 1:
         table = replace(table, calls=(replace(table.calls[0], name=function),))
     known = {name: x.default for name, x in problem.parameters.items()} | dict(table.parameters)
@@ -207,8 +219,9 @@ def _is_rate(c: Comparison, item: Item) -> bool:
     return item.name in RATES or item.name in c.program.state[_moving(c.problem, c.program)]
 
 
-def reports(c: Comparison, make: Made) -> tuple[bool, list[str]]:
-    """Do both agree, and what is to be told, in lines."""
+def reports(c: Comparison, make: Made) -> tuple[bool, Iterator[str]]:
+    """Do both agree, and what is to be told, in lines, each as soon as it is known; a search that
+    is stopped tells what it has before it ends."""
     known, difference = c.differences(c.table)
     off = c.in_the_users(difference)
     size = np.maximum(np.abs(c.dx).max(axis=0), np.abs(c.in_the_users(known)).max(axis=0))
@@ -216,32 +229,42 @@ def reports(c: Comparison, make: Made) -> tuple[bool, list[str]]:
     worst = np.abs(off).max(axis=0) / size
     n = len(off)
     if (worst <= AGREES).all():
-        return True, [f"agrees to {worst.max():.0e} at {n} states"]
+        return True, iter([f"agrees to {worst.max():.0e} at {n} states"])
     names = c.table.called()
     told_of = [f"{names[i]} ({worst[i]:.1g})" for i in np.flatnonzero(worst > AGREES)]
-    lines = [f"differs at {n} states, relative to its size, in the rate of {', '.join(told_of)}"]
+    first = f"differs at {n} states, relative to its size, in the rate of {', '.join(told_of)}"
+    return False, chain([first], _causes(c, make, off, known, size))
+
+
+def _causes(c: Comparison, make: Made, off: Array, known: Array, size: Array) -> Iterator[str]:
+    """Why the rates differ, in lines: by ``off`` in the user's numbers, each of a ``size``, from
+    our ``known`` ones."""
     if others := _other_conventions(c):
-        return False, lines + [f"  it agrees if {x}" for x in others]
-    lines += _of_places(c, off, known)
+        yield from (f"  it agrees if {x}" for x in others)
+        return
+    yield from _of_places(c, off, known)
     words, turning = _of_transport(c, off)
     if words:
-        lines.append(f"  {words}")
+        yield f"  {words}"
         c, off = replace(c, dx=c.dx - turning), off - turning
-        worst = np.abs(off).max(axis=0) / size
+    worst = np.abs(off).max(axis=0) / size
     d = c.program.dimension
     if all(worst[place].max() <= AGREES for item, place in c.table.places() if _is_rate(c, item)):
-        return False, lines
+        return
     found = _explained(c, make, off, d)
     link = "and" if found.together else "or"
-    lines += [f"  {f'{link}: ' if i else ''}{x}" for i, x in enumerate(found.changes[:SHOWN])]
-    if more := len(found.changes) - SHOWN if found.together else 0:
-        lines += [f"  and: {more} more, without which these do not explain it"] * (more > 0)
+    yield from (f"  {f'{link}: ' if i else ''}{x}" for i, x in enumerate(found.changes[:SHOWN]))
+    if found.together and (more := len(found.changes) - SHOWN) > 0:
+        yield f"  and: {more} more, without which these do not explain it"
     if not found.told_apart:
-        lines.append("  these are not told apart by the numbers")
+        yield "  these are not told apart by the numbers"
     if not found.changes:
-        lines.append("  no change of our equations that was tried explains this")
-        lines += [f"  nearest: {found.nearest}"] * bool(found.nearest)
-    return False, lines
+        so_far = " so far" * bool(found.stopped)
+        yield f"  no change of our equations that was tried{so_far} explains this"
+        if found.nearest:
+            yield f"  nearest{so_far}: {found.nearest}"
+    if found.stopped:
+        raise found.stopped
 
 
 def _other_conventions(c: Comparison) -> list[str]:
@@ -267,7 +290,7 @@ def _of_places(c: Comparison, off: Array, known: Array) -> list[str]:
         factor = 1 + float((off[:, place] * right[:, place]).sum()) / square if square else 1.0
         rest = off[:, place] - (factor - 1) * right[:, place]
         if np.abs(rest).max() <= NEAR * np.abs(right).max():
-            lines.append(f"  {told(f'the rate of {item.name}', 1.0, factor, {})[0]}")
+            lines.append(f"  {told(f'the rate of {item}', 1.0, factor, {})[0]}")
             continue
         for words, table in c.table.others():
             to, x = c.ours(table), c.given["x"]
@@ -275,11 +298,11 @@ def _of_places(c: Comparison, off: Array, known: Array) -> list[str]:
             taken = rates(to, x, c.dx) - c.rates(to(x))
             own = [c.program.state.index(y) for y in c.blocks.get(_block_of(item), ())]
             if own and np.abs(taken[:, own]).max() <= AGREES * np.abs(known).max():
-                lines.append(f"  the rate of {item.name} is right if {words}")
+                lines.append(f"  the rate of {item} is right if {words}")
                 break
         else:
             of = "flow" if item.name in c.problem.stored else "velocity"
-            lines.append(f"  the rate of {item.name} is not that of its {of}")
+            lines.append(f"  the rate of {item} is not that of its {of}")
     return lines
 
 
@@ -349,6 +372,13 @@ def _explained(c: Comparison, make: Made, off: Array, d: int) -> Explanation:
     turns = [i for i in range(d) if i not in moves]
     rows = {"moment": turns, "force": moves} if moves and turns else {"moment": turns}
     b = Balance(code, part, make, parameters, c.given["t"], to(x), c.u, a, rows, moving)
-    terms = list(b.terms())
-    found = explained(b, terms)
-    return found if found.changes and found.telling else of_two(b, terms) or found
+    tried: list[Hypothesis] = []
+    found = None
+    try:
+        terms = list(b.terms())
+        found = explained(b, terms, tried)
+        return found if found.changes and found.telling else of_two(b, terms) or found
+    except BaseException as error:  # its time is over, or Ctrl-C
+        if isinstance(error, Exception):
+            raise
+        return replace(found or best(b, tried), stopped=error)

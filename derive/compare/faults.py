@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
+from functools import partial
 from itertools import chain, combinations, product
 
 import numpy as np
@@ -20,7 +21,18 @@ from .newton_euler import (
     of_wrenches,
     parallel,
 )
-from .told import ABOUT, NEAR, Changed, Hypothesis, changed, possible, told
+from .told import (
+    ABOUT,
+    NEAR,
+    Changed,
+    Hypothesis,
+    changed,
+    is_inertia,
+    possible,
+    stands_in,
+    told,
+    with_other,
+)
 from .users_code import Array
 
 NEARER = 0.5
@@ -65,37 +77,52 @@ def views(b: Balance) -> list[tuple[str, Array]]:
 class Explanation:
     """Changes of our equations that make them the user's, each alone or all ``together``; else
     which one is ``nearest``.  ``telling``: are none of them factors that say nothing?
-    ``told_apart``: are they not several pairs of which each explains all?"""
+    ``told_apart``: are they not several pairs of which each explains all?  ``stopped``: by what the
+    search was ended, where it was."""
 
     changes: tuple[str, ...] = ()
     together: bool = False
     telling: bool = True
     told_apart: bool = True
     nearest: str = ""
+    stopped: BaseException | None = None
 
 
-def explained(b: Balance, terms: list[Term]) -> Explanation:
-    """What explains the whole difference, the most telling first; else what leaves the least."""
-    size = b.size()
+def explained(b: Balance, terms: list[Term], tried: list[Hypothesis]) -> Explanation:
+    """What explains the whole difference, the most telling first; else what leaves the least.  What
+    is ``tried`` is added to these."""
 
     def stage(generated: Iterator[Hypothesis]) -> list[Hypothesis]:
         tried.extend(x for x in generated if np.isfinite(x.left).all())
-        return sorted((x for x in tried if exact(x.left, size)), key=lambda x: x.rank)
+        return _exact(b, tried)
 
-    tried: list[Hypothesis] = []
     good = stage(hypotheses(b, terms))
     if not good or good[0].rank > 2:
         good = stage(chain(of_numbers(b, parts_of(b, terms)), of_added_mass(b), of_sizes(b)))
     if good:
-        least = [x.words for x in good if x.rank <= max(1, good[0].rank)]
-        first = [x for x in least if ABOUT not in x or x.replace(ABOUT, "") not in least]
-        return Explanation(with_other_names(dict.fromkeys(first)))
+        return best(b, tried)
     for found in (*(of_several(b, terms, x) for x in views(b)), of_tables(b)):
         if found:
             words = tuple(x for x, _ in found)
             return Explanation(words, together=True, telling=not any(rank for _, rank in found))
+    return best(b, tried)
+
+
+def _exact(b: Balance, tried: list[Hypothesis]) -> list[Hypothesis]:
+    """Those that explain the whole difference, the most telling first."""
+    size = b.size()
+    return sorted((x for x in tried if exact(x.left, size)), key=lambda x: x.rank)
+
+
+def best(b: Balance, tried: list[Hypothesis]) -> Explanation:
+    """The most telling of those that explain the whole difference, or else the nearest."""
+    if good := _exact(b, tried):
+        least = [x.words for x in good if x.rank <= max(1, good[0].rank)]
+        first = [x for x in least if ABOUT not in x or x.replace(ABOUT, "") not in least]
+        return Explanation(with_other_names(dict.fromkeys(first)))
     if not tried:
         return Explanation()
+    size = b.size()
     whole = float(np.abs(b.unexplained / size).max())
     nearest = min(tried, key=lambda x: float(np.abs(x.left / size).max()))
     part = float(np.abs(nearest.left / size).max()) / whole
@@ -159,7 +186,10 @@ def newton(left: Callable[[float], Array], start: float) -> tuple[float, Array] 
 def of_numbers(b: Balance, parts: Mapping[str, Part]) -> Iterator[Hypothesis]:
     """A parameter of the problem, or one of its numbers, is another in a part."""
     base = b.values()
-    numbers: dict[str, tuple[str, Values]] = {x: (x, b.parameters) for x in b.parameters}
+    units = {x: b.opened.problem.parameters[x].unit for x in b.parameters}
+    numbers: dict[str, tuple[str, Values]] = {
+        x: (x, {y: b.parameters[y] for y in units if units[y] == units[x]}) for x in units
+    }
     numbers |= {x.name: (b.words(x), b.alike(x)) for x in b.opened.slots}
     for (where, part), (name, (words, same)) in product(parts.items(), numbers.items()):
         own = name in b.parameters
@@ -229,7 +259,12 @@ def of_vectors(b: Balance) -> Iterator[Hypothesis]:
         # a wind stands under a root: from 1 alone Newton's method may end elsewhere
         several = [fitted(b, scaled, x, b.left) for x in (1.0, -1.0, 0.0)]
         if found := min(filter(None, several), key=lambda x: np.abs(x[1]).sum(), default=None):
-            words, rank = changed(named_vector(key), found[0], b.named)
+
+            def related(name: str, own: list[str] = own) -> bool:
+                there = with_other(b, name).values()
+                return is_inertia(b, name) or any(there[x] != base[x] for x in own)
+
+            words, rank = changed(named_vector(key), found[0], b.named, related)
             yield Hypothesis(words, rank, found[1])
 
 
@@ -278,7 +313,7 @@ def of_term(
         kind = b.kind(rows)
         called = f"{term.name(kind)}{about}" + (f" in {name}" if name in single else "")
         for factor in own:
-            words, rank = changed(called, factor, b.named)
+            words, rank = changed(called, factor, b.named, partial(stands_in, b, term=term))
             left = through(back, here - (factor - 1) * part)
             yield Hypothesis(words, rank + (name in single), left)
         if name in sets and not factors:
@@ -326,7 +361,7 @@ def of_several(b: Balance, terms: list[Term], view: tuple[str, Array]) -> Told:
     here = through(to, b.unexplained)
     size = np.atleast_2d(through(np.abs(to), b.size())).max(axis=0)
     whole = [(x, through(to, x.values)) for x in terms if not x.part]
-    found: dict[str, dict[int, float]] = {}
+    found: dict[str, tuple[Term, dict[int, float]]] = {}
     said: Told = []
     for row in range(here.shape[1]):
         columns = [(x, y[:, row]) for x, y in whole if np.abs(y[:, row]).max() > 1e-12 * size[row]]
@@ -345,15 +380,16 @@ def of_several(b: Balance, terms: list[Term], view: tuple[str, Array]) -> Told:
             null = np.linalg.svd(design / scale)[2][rank:]
             alike = [x for x, n in zip(names, null.T, strict=True) if np.abs(n).max() > 1e-6]
             said.append((f"cannot be told apart in row {row + 1}: {', '.join(alike)}", 1))
-        for name, factor in zip(names, factors / scale, strict=True):
+        for (x, _), name, factor in zip(columns, names, factors / scale, strict=True):
             if abs(factor) > NEAR:
-                found.setdefault(name, {})[row] = 1 + float(factor)
-    for name, rows in found.items():
-        values = [*rows.values()]
+                found.setdefault(name, (x, {}))[1][row] = 1 + float(factor)
+    for name, (term, rows) in found.items():
+        values, related = [*rows.values()], partial(stands_in, b, term=term)
         if max(values) - min(values) <= NEAR:
-            said.append(changed(name, values[0], b.named))
-        else:
-            said += [(changed(f"{name} in row {i + 1}", x, b.named)[0], 1) for i, x in rows.items()]
+            said.append(changed(name, values[0], b.named, related))
+            continue
+        each = (changed(f"{name} in row {i + 1}", x, b.named, related) for i, x in rows.items())
+        said += [(words, 1) for words, _ in each]
     return said
 
 

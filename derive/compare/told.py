@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
 from math import pi
 
-from .balance import Balance
+import numpy as np
+
+from .balance import Balance, Term
 from .users_code import Array
 
 SIMPLE = {-1.0: "has the other sign", 0.0: "is missing"}
@@ -28,6 +30,8 @@ FACTORS = (-1.0, 0.0, 2.0, 0.5)
 STANDARD_GRAVITY = 9.80665
 NEAR = 1e-7
 """How near a number is to one that has a name."""
+SHIFT = 1e-3
+"""By so much of itself a number is moved, to see what depends on it."""
 ABOUT = " about the centre of mass"
 
 
@@ -66,9 +70,14 @@ def told(name: str, old: float, new: float, others: Mapping[str, float]) -> tupl
     return f"{name} is {new:.6g}, not {old:.6g}", 4
 
 
-def changed(name: str, factor: float, known: Mapping[str, float]) -> tuple[str, int]:
-    """What is said of a term that has a factor, perhaps a ``known`` number or its reciprocal, and
-    how telling this is."""
+def changed(
+    name: str,
+    factor: float,
+    known: Mapping[str, float],
+    related: Callable[[str], bool] = lambda _: True,
+) -> tuple[str, int]:
+    """What is said of a term that has a factor, perhaps a ``known`` number that is ``related`` to
+    it, or its reciprocal, and how telling this is."""
     if abs(factor) <= NEAR:
         return f"{name} is missing", 0
     words, rank = told(name, 1.0, factor, {})
@@ -76,9 +85,37 @@ def changed(name: str, factor: float, known: Mapping[str, float]) -> tuple[str, 
         return words, 0
     for other, value in known.items():
         for how, x in (("has the factor", value), ("is divided by", value and 1 / value)):
-            if x and abs(abs(factor) - abs(x)) <= NEAR * abs(x):
+            if x and abs(abs(factor) - abs(x)) <= NEAR * abs(x) and related(other):
                 return f"{name} {how} {'−' * (factor * x < 0)}{other}", 0
     return f"{name} has the factor {factor:.6g}", 4
+
+
+def with_other(b: Balance, name: str) -> Balance:
+    """The balance with another value of a number, by what it is ``named`` there."""
+    other = b.named[name] * (1 + SHIFT)
+    if slot := next((x.name for x in b.opened.slots if x.words == name), ""):
+        return replace(b, changed={**b.changed, slot: other})
+    return replace(b, parameters={**b.parameters, name: other})
+
+
+def is_inertia(b: Balance, name: str) -> bool:
+    """Is a number one on the diagonal of the mass matrix, by which a load may have been divided?"""
+    diagonal = np.diagonal(b.mass(b.values()), axis1=1, axis2=2)
+    near = np.abs(diagonal - b.named[name]) <= NEAR * abs(b.named[name])
+    return bool(near.all(axis=0).any())
+
+
+def stands_in(b: Balance, name: str, term: Term) -> bool:
+    """Is a number related to a term: an inertia, or one on which the term depends?"""
+    if is_inertia(b, name):
+        return True
+    called, moved = term.name(""), with_other(b, name)
+    try:
+        found = next(x for x in (*moved.terms(), *moved.together()) if x.name("") == called)
+    except (ValueError, StopIteration):  # no body has this number
+        return False
+    change = np.abs(found.values - term.values).max()
+    return bool(change > NEAR * SHIFT * np.abs(term.values).max())
 
 
 def possible(b: Balance, values: Mapping[str, float] | None = None) -> Array | None:

@@ -16,7 +16,10 @@ from typing import Any
 
 import numpy as np
 
+from ..algebra.factor_charts import factor_charts
+from ..algebra.groups import Group
 from ..language.reserved import did_you_mean, near_name
+from ..problem.fields import is_entry, state_names
 from .users_code import Array, Call, CompareError
 
 SEQUENCES = tuple(
@@ -47,13 +50,53 @@ TINY = 1e-200
 
 
 @dataclass(frozen=True)
+class Angle:
+    """The entries ``names`` of a factor that one angle x turns: Σ ``parts`` · (1, x, cos wx,
+    sin wx), the parts (4, names)."""
+
+    names: tuple[str, ...]
+    parts: Array
+    w: float
+
+    def entries(self, x: Any) -> dict[str, Any]:
+        """The entries at angles (N,), which may be complex."""
+        numbers = np.stack([np.ones_like(x), x, np.cos(self.w * x), np.sin(self.w * x)], axis=-1)
+        return _named(self.names, numbers @ self.parts)
+
+
+def own_angles(group: Group, state: Sequence[str]) -> dict[str, Angle]:
+    """The angles of a group by their names in the code of ``--attitude angle``, of those factors
+    that one angle tells, beside T."""
+    entries = {x: t for x, t in state_names(group).items() if x in state and isinstance(t, tuple)}
+    places = {(t[2] - 1, t[3] - 1): x for x, t in entries.items() if is_entry(t)}
+    found = {}
+    for chart in factor_charts(group, "angle").values():
+        rows = range(chart.offset, chart.offset + chart.size)
+        block = chart.blocks[0]
+        if not block.turn or block.rows != tuple(rows):
+            continue
+        inside = [(i, j) for i in rows for j in rows if (i, j) in places]
+        parts = [
+            [float(P[i - rows[0]][j - rows[0]]) for i, j in inside] for P in block.parts_of_turn
+        ]
+        own = tuple(places[x] for x in inside)
+        found[block.names[0]] = Angle(own, np.array(parts), float(block.turn))
+    return found
+
+
+@dataclass(frozen=True)
 class Item:
     """A name or a block of a state, ``said`` by one of each of WORDS; a number of the user's is
-    ours times ``unit``."""
+    ours times ``unit``; of an ``angle``, what it turns; ``called``: as the user has it."""
 
     name: str
     said: Mapping[str, str] = field(default_factory=dict)
     unit: float = 1.0
+    angle: Angle | None = None
+    called: str = ""
+
+    def __str__(self) -> str:
+        return self.called or self.name
 
     @property
     def size(self) -> int:
@@ -95,9 +138,7 @@ class Table:
     def called(self) -> list[str]:
         """The numbers of the state in words."""
         return [
-            x.name if x.size == 1 else f"{x.name} {i + 1}"
-            for x in self.items
-            for i in range(x.size)
+            str(x) if x.size == 1 else f"{x} {i + 1}" for x in self.items for i in range(x.size)
         ]
 
     def others(self) -> Iterator[tuple[str, Table]]:
@@ -105,12 +146,17 @@ class Table:
         for i, item in enumerate(self.items):
             for words, other in item.others():
                 items = (*self.items[:i], other, *self.items[i + 1 :])
-                yield f"{item.name} has {words}", replace(self, items=items)
+                yield f"{item} has {words}", replace(self, items=items)
         turning = [x for x in self.items if x.name in ("euler", "omega")]
+        for x in self.items:
+            if x.angle:
+                rate = x.name.replace("theta", "zeta")
+                turning += [x, *(y for y in self.items if y.name == rate)]
         for word in ("degrees", "turns") if len(turning) > 1 else ():
             unit = UNITS[word]
             items = tuple(replace(x, unit=unit * x.unit) if x in turning else x for x in self.items)
-            yield f"euler and omega have the unit {unit:.17g}, {word}", replace(self, items=items)
+            listed = " and ".join(map(str, turning))
+            yield f"{listed} have the unit {unit:.17g}, {word}", replace(self, items=items)
 
 
 def own_blocks(state: Sequence[str], rates: Sequence[str]) -> dict[str, tuple[str, ...]]:
@@ -122,10 +168,16 @@ def own_blocks(state: Sequence[str], rates: Sequence[str]) -> dict[str, tuple[st
 
 
 def read(
-    path: Path | None, default: Table, blocks: Mapping[str, tuple[str, ...]], parameters: Any
+    path: Path | None,
+    default: Table,
+    blocks: Mapping[str, tuple[str, ...]],
+    parameters: Any,
+    angles: Mapping[str, Angle],
+    by_block: Mapping[str, str],
 ) -> Table:
     """The table of a TOML file, or what is meant without one; names that follow one another as in a
-    block of our own are that block.  ``CompareError`` says which key is wrong."""
+    block of our own are that block.  ``angles`` stand for entries, names ``by_block`` for those of
+    the state.  ``CompareError`` says which key is wrong."""
     if path is None:
         return replace(default, items=_in_blocks(default.items, blocks))
     try:
@@ -139,9 +191,11 @@ def read(
     state = tuple(x.name for x in default.items)
     apart = [x for x in state if all(x not in own for own in blocks.values())]
     listed = _texts(told.get("state", [*blocks, *apart]), f"{path}: state")
+    named = (*angles, *state, *by_block)
     if not blocks and any(x in WORDS for x in listed):
-        raise CompareError(f"{path}: state: blocks are of SO(3) and SE(3); give names")
-    _require_known(listed, (*state, *(WORDS if blocks else ())), f"{path}: state")
+        told_of = "blocks are of SO(3) and SE(3); give names"
+        raise CompareError(f"{path}: state: {told_of}: {', '.join(named)}")
+    _require_known(listed, (*named, *(WORDS if blocks else ())), f"{path}: state")
     _require_known([x for x in told if x in WORDS], listed, f"{path}: tables of the state")
     units = _numbers(told.get("units", {}), f"{path}: units")
     _require_known(units, [x for x in listed if x not in SIZES], f"{path}: units")
@@ -149,15 +203,9 @@ def read(
         raise CompareError(f"{path}: units: a unit is not 0")
     items = []
     for name in listed:
-        said = told.get(name, {}) if name in WORDS else {}
-        where = f"{path}: [{name}]"
-        if not isinstance(said, dict):
-            raise CompareError(f"{where}: expected a table")
-        _require_known(said, WORDS.get(name, {}), where)
-        words = {key: said.get(key, x[0]) for key, x in WORDS.get(name, {}).items()}
-        for key, word in words.items():
-            _require_known([word], WORDS[name][key], f"{where}: {key}")
-        items.append(Item(name, words, units.get(name, 1.0)))
+        words = _said(told.get(name, {}), name, f"{path}: [{name}]") if name in WORDS else {}
+        own = by_block.get(name, name)
+        items.append(Item(own, words, units.get(name, 1.0), angles.get(name), name))
     inputs = _texts(told.get("inputs", [*default.inputs]), f"{path}: inputs")
     if sorted(inputs) != sorted(default.inputs):
         raise CompareError(f"{path}: inputs: expected {', '.join(default.inputs)} in an order")
@@ -175,6 +223,17 @@ def read(
     )
     _require_whole(found, state, blocks, str(path))
     return found
+
+
+def _said(table: Any, name: str, where: str) -> dict[str, str]:
+    """What a table says of a block, and what is meant where it says nothing."""
+    if not isinstance(table, dict):
+        raise CompareError(f"{where}: expected a table")
+    _require_known(table, WORDS[name], where)
+    words = {key: table.get(key, x[0]) for key, x in WORDS[name].items()}
+    for key, word in words.items():
+        _require_known([word], WORDS[name][key], f"{where}: {key}")
+    return words
 
 
 def _in_blocks(items: tuple[Item, ...], blocks: Mapping[str, tuple[str, ...]]) -> tuple[Item, ...]:
@@ -199,6 +258,7 @@ def _require_whole(
 ) -> None:
     """``CompareError`` where the items do not say every number of our state once."""
     turned = {**blocks, **dict.fromkeys(("quaternion", "euler"), blocks.get("matrix", ()))}
+    turned |= {x.name: x.angle.names for x in table.items if x.angle}
     given = [y for x in table.items for y in turned.get(x.name, (x.name,))]
     for name in state:
         if given.count(name) != 1:
@@ -237,7 +297,9 @@ def ours(table: Table, x: Any, state: Sequence[str], blocks: Mapping[str, Any]) 
     given: dict[str, Any] = {}
     for item, place in table.places():
         given[item.name] = x[:, place] / item.unit
-        if item.name not in WORDS:
+        if item.angle:
+            found |= item.angle.entries(given[item.name][:, 0])
+        elif item.name not in WORDS:
             found[item.name] = given[item.name][:, 0]
     said = {item.name: item.said for item in table.items}
     for name in ("quaternion", "euler", "matrix"):
@@ -325,8 +387,8 @@ def drawn(
             part = random.uniform(0.2, 1.2, size=(n, 3))
         elif item.name == "matrix":
             part = np.stack([columns[x] for x in blocks["matrix"]], axis=-1)
-        elif item.name in WORDS:
-            part = random.normal(size=(n, 3))
+        elif item.name in WORDS or item.angle:
+            part = random.normal(size=(n, item.size))
         else:
             part = columns[item.name][:, None]
         scaled = item.unit if item.name not in ("quaternion", "matrix") else 1.0

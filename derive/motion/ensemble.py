@@ -17,6 +17,7 @@ from .emitted import Emitted
 from .first_numbers import MotionError
 from .native import AT_EVENT, CompileError, Integers, constants, ensemble
 from .run import Array, called
+from .signals import moving_inputs
 from .simulate import has_inertia, require_mass, require_values
 from .start import OFF_THE_GROUP, Start, start
 from .trajectory import TOLERANCE, Method, instants, reflection, taken_to_group, why_unreached
@@ -184,14 +185,14 @@ class EnsembleMotions:
             given=code.program.by_state(plan.given, MotionError),
         )
         self.code, self.problem, self.plan, self.t = code, problem, plan, plan.times
-        held = {*plan.given, *plan.names}
-        if moving := next((x.input for x in problem.signals if x.input not in held), ""):
-            why = f"the [[signal]] of {moving} is for one motion: hold it, as --set {moving}=0"
-            raise MotionError(f"{code.name}: {why}")
         first = dict(
             zip(plan.names, ParameterDraws(plan.varied, plan.seed).next(1)[0], strict=True)
         )
         self.first = self._start(first)
+        named = code.program.inputs, self.first, plan.given, plan.names
+        for name, at in moving_inputs(problem, *named).items():
+            why = f"the [[signal]] of {name} is for one motion: hold it, as --set {name}={at:.9g}"
+            raise MotionError(f"{code.name}: {why}")
         stated = {name for t in problem.initial.trees() for name in names(t)}
         require_values(code, self.first)
         require_mass(code, problem, self.first, plan.duration)

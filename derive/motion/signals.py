@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import math
+import re
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
@@ -12,12 +13,16 @@ from typing import Any
 
 import numpy as np
 
+from ..language.expression import names
 from ..language.reserved import did_you_mean, near_name
 from ..language.values import approximate
+from ..problem.force_reader import measured
 from ..problem.problem import Problem
 from ..schema.motion_kinds import Signal
+from .emitted_code import base_units
 from .first_numbers import MotionError
 from .run import Array
+from .start import Start
 
 TIME = "t"
 """The column of the times."""
@@ -148,10 +153,17 @@ def inputs_in_time(
 ) -> InputsInTime | None:
     """The ``inputs`` by the signals of a problem, but of those that are ``said`` to be held, and by
     what is ``given``, which wins; the others as they are at ``first``; ``None`` where all are held.
-    ``MotionError`` for what is no such table, and a name that is none."""
+    ``MotionError`` for what is no such table, and for a name that is none or is ``said``, too."""
     if linear and (given is None or callable(given)):
         raise MotionError("--linear joins the rows of --input: give a table, or leave it out")
-    table = None if given is None or callable(given) else _table(given, inputs, linear=linear)
+    table = None
+    if given is not None and not callable(given):
+        table, where = _table(given, problem, inputs, linear=linear)
+        if both := next((x for x in table.names if x in said), ""):
+            raise MotionError(
+                f"{where}: {both} has a column, and is set to a number too, which would hold it: "
+                "leave out one of both"
+            )
     held = {*said, *(table.names if table else ())}
     listed: list[Signals] = []
     changes: list[Change] = []
@@ -176,17 +188,51 @@ def inputs_in_time(
     return InputsInTime(times, rows, rates, tuple(changes))
 
 
+def moving_inputs(
+    problem: Problem,
+    inputs: Sequence[str],
+    begin: Start,
+    given: Collection[str],
+    varied: Collection[str],
+) -> dict[str, float]:
+    """Those of the ``inputs`` that signals of a problem change, but for those ``given`` or varied,
+    which are held, with what they are at the start, of parameters that are varied by defaults."""
+    stated = {x: problem.parameters[x].default for x in {*varied} & {*problem.parameters}}
+    numbers = {**begin.parameters, **{x: y for x, y in stated.items() if y is not None}}
+    said = {*given, *varied}
+    driven = inputs_in_time(problem, inputs, begin.u, numbers, said, None)
+    u = dict(zip(inputs, driven.at(0.0, begin.x).tolist() if driven else (), strict=False))
+    return {x.input: u[x.input] for x in problem.signals if x.input not in said}
+
+
 def _table(
-    given: str | Path | Mapping[str, Any], inputs: Sequence[str], *, linear: bool
-) -> Signals:
-    """The table that is given, of numbers of the inputs."""
-    table, where = read(given, linear=linear)
+    given: str | Path | Mapping[str, Any], problem: Problem, inputs: Sequence[str], *, linear: bool
+) -> tuple[Signals, str]:
+    """The table that is given, of numbers of the inputs, and what it is called in a message."""
+    table, where, said = read(given, linear=linear)
     for name in table.names:
         if name not in inputs:
             near = did_you_mean(near_name(name, [*inputs]), after=" ").rstrip()
             has = ", ".join(inputs) or "none"
             raise MotionError(f"{where}: no input {name[:40]!r}; {near or f'there is {has}'}")
-    return table
+    units = _units(problem)
+    for name in {*said} & {*units}:
+        same = said[name].replace(" ", "") == units[name].replace(" ", "")  # N m as Nm
+        if not same and measured(said[name]) != measured(units[name]):
+            told = f"{name} is in {units[name]}, not in {said[name][:20]!r}"
+            raise MotionError(f"{where}: {told}: convert the column")
+    return table, where
+
+
+def _units(problem: Problem) -> dict[str, str]:
+    """The units of the time and of inputs, of those that are known: of a force or a torque along
+    numbers where the parameters are in units of SI."""
+    found = {TIME: "s"}
+    for x in problem.inputs if base_units(problem) >= {"kg", "m", "s"} else ():
+        known = {"force": "N", "torque": "N m"}.get(x.kind)
+        if known and not any(names(t) for t in getattr(x, "direction", None) or ()):
+            found |= dict.fromkeys(problem.numbers_of(x), known)
+    return found
 
 
 def _sampled(signal: Signal, parameters: Mapping[str, float], where: str) -> Signals:
@@ -244,12 +290,18 @@ def _asked(function: Callable[[float, Array], Any], inputs: Sequence[str]) -> Ch
     return change
 
 
-def read(given: str | Path | Mapping[str, Any], *, linear: bool = False) -> tuple[Signals, str]:
-    """The signals of a .csv file with a line of names, or of columns by name, and what they are
-    called in a message; ``MotionError``."""
+HEAD = re.compile(r"(.*?)\s*\[(.*)\]")
+"""A name with its unit, as files of runs have it."""
+
+
+def read(
+    given: str | Path | Mapping[str, Any], *, linear: bool = False
+) -> tuple[Signals, str, dict[str, str]]:
+    """The signals of a .csv file with a line of names, or of columns by name, what they are called
+    in a message, and the units that stand beside names; ``MotionError``."""
     if isinstance(given, Mapping):
         columns = {str(x): np.asarray(y, dtype=float).ravel().tolist() for x, y in given.items()}
-        return Signals.of(columns, "inputs", linear=linear), "inputs"
+        return Signals.of(columns, "inputs", linear=linear), "inputs", {}
     where = str(given)
     try:
         with Path(given).open(newline="", encoding="utf-8-sig") as file:
@@ -259,10 +311,12 @@ def read(given: str | Path | Mapping[str, Any], *, linear: bool = False) -> tupl
         raise MotionError(f"{where}: {told}") from None
     if not rows:
         raise MotionError(f"{where}: an empty file; its first line names t and the inputs")
-    names = ["t" if x.strip() == "t [s]" else x.strip() for x in rows[0]]  # as runs have it
-    if len({*names}) < len(names):
+    heads = [HEAD.fullmatch(x.strip()) for x in rows[0]]
+    named = [x[1] if x else y.strip() for x, y in zip(heads, rows[0], strict=True)]
+    if len({*named}) < len(named):
         raise MotionError(f"{where}: two columns of one name")
-    return Signals.of(_columns(names, rows[1:], where), where, linear=linear), where
+    found = Signals.of(_columns(named, rows[1:], where), where, linear=linear)
+    return found, where, {x[1]: x[2].strip() for x in heads if x and x[2].strip()}
 
 
 def _columns(

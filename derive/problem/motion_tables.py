@@ -6,7 +6,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Mapping
-from fractions import Fraction
 from itertools import pairwise
 from typing import Any
 
@@ -18,6 +17,7 @@ from ..language.expression import names
 from ..language.limits import LEAVES
 from ..language.reserved import suffixed
 from ..language.tree import Tree, nodes
+from ..language.values import approximate
 from ..schema.kind import Kinematics, Parameter
 from ..schema.motion_kinds import Event, Signal
 from ..schema.table import hint, nearest
@@ -32,7 +32,7 @@ from .fields import (
     undeclared,
 )
 from .file_reader import ROTATION_KEYS, FileReader, turn_in
-from .inertia import is_negative
+from .inertia import defaults, is_negative
 from .problem import Initial, Problem, ProblemError
 
 SECTIONS_KNOWN = ("name", "title", "group", "action", "parameters", "kinematics")
@@ -139,14 +139,24 @@ def _signals(data: Mapping[str, Any], start: Initial, reader: FileReader) -> tup
         if len(x.times or ()) != len(x.samples or ()):
             count = f"{len(x.times or ())} times and {len(x.samples or ())} values"
             raise ProblemError(f"{where}: {count}; give a value for each time")
-        for k, (a, b) in enumerate(pairwise(x.times or ()), 2):
-            if isinstance(a, int | Fraction) and isinstance(b, int | Fraction) and b <= a:
-                told = f"{float(b):g} does not come after {float(a):g}"
-                raise ProblemError(f"{where}, times, number {k}: {told}")
         for t in x.trees():
             _require_declared(t, where, reader, "t" if x.u is not None else "")
+        _require_increasing(x, where, reader)
         found.append(x)
     return tuple(found)
+
+
+def _require_increasing(x: Signal, where: str, reader: FileReader) -> None:
+    """The times of a signal begin at 0, or before, and increase for the defaults of the parameters;
+    of those without a default nothing is known."""
+    known = defaults(reader.parameters)
+    times = [approximate(t, known, float) for t in x.times or ()]
+    if times and times[0] is not None and times[0] > 0:
+        raise ProblemError(f"{where}, times: the first is {times[0]:g}: a motion begins at t = 0")
+    for k, (before, t) in enumerate(pairwise(times), 2):
+        if before is not None and t is not None and not t > before:
+            told = f"number {k}, {t:g}, does not come after {before:g}"
+            raise ProblemError(f"{where}, times: {told}; give times that increase")
 
 
 def named(problem: Problem) -> set[str]:

@@ -5,6 +5,8 @@ from pathlib import Path
 import pytest
 
 from derive.command.cli import main
+from derive.command.writing import StoppedError
+from derive.compare import comparison
 from tests.compare import codes
 
 CALLS = {x["problem"]: x["as"] for x in codes.LISTED["others"].values() if "file" not in x}
@@ -654,3 +656,41 @@ def test_three_faults_are_not_said_to_be_two(capsys, tmp_path):
     code, told = compared(capsys, tmp_path, "drone", *changes)
     assert code == 1
     assert "no change of our equations that was tried explains this" in told.out
+
+
+@pytest.mark.parametrize(("scale", "words"), [("kappa", "has the factor 0.17"), ("1 / m", "by m")])
+def test_a_number_by_chance_is_no_cause(scale, words, capsys, tmp_path):
+    """kappa is of the damping, and in no way of the input; m is what a load is divided by."""
+    code, told = compared(
+        capsys, tmp_path, "drone", ("ber * DIR", f'ber * ({scale} if name == "side" else 1) * DIR')
+    )
+    first = told.out.splitlines()[1]
+    assert code == 1
+    assert words in first
+    assert "kappa" not in told.out
+
+
+@pytest.mark.parametrize("where", ["best", "pairs", "terms"])
+def test_what_is_known_when_the_time_is_over(where, capsys, tmp_path, monkeypatch):
+    """The difference first, and the nearest cause of those that were tried."""
+
+    def over(*_):
+        raise StoppedError("stopped after 1 s")
+
+    place = {"best": "explained", "pairs": "of_two", "terms": "Balance.terms"}[where]
+    if where == "best":
+        own = comparison.explained
+        monkeypatch.setattr(comparison, place, lambda *given: (own(*given), over()))
+    else:
+        monkeypatch.setattr(f"derive.compare.comparison.{place}", over)
+    changes = (
+        ("[0, 0, -g]", "[0, 0, -2 * g]"),
+        ("drag = -kappa * (", "drag = -kappa * (v**3 / 9 + "),
+    )
+    code, told = compared(capsys, tmp_path, "drone", *changes)
+    first, *others = told.out.splitlines()
+    assert code == 2
+    assert told.err == "derive: stopped after 1 s\n"
+    assert first.startswith("differs at 24 states, relative to its size, in the rate of omega 1 (")
+    assert others[0] == "  no change of our equations that was tried so far explains this"
+    assert [x[:18] for x in others[1:]] == ["  nearest so far: "] * (where != "terms")

@@ -168,6 +168,20 @@ def test_roots_without_a_derivative_are_refused(torque, why):
         derive(problem_of(problem)).trim(TURNED)
 
 
+@pytest.mark.parametrize(
+    ("angle", "why"),
+    [((1, 0), "the mass matrix is singular in this state"), ((0, 1), "no trim: dzeta_1/dt")],
+)
+def test_a_singular_mass_matrix_is_no_force_without_value(angle, why):
+    """A bob on a rail without mass: where it hangs, the rail and the bob go along one line."""
+    energy = "zeta_1^2/2 + A2_11*zeta_1*zeta_2 + zeta_2^2/2 + A2_11 - T1_1"
+    cart = {"name": "cart", "group": "R(1) x SO(2)", "lagrangian": {"L": energy}}
+    c, s = angle
+    at = {"A2_11": c, "A2_12": -s, "A2_21": s, "A2_22": c}
+    with pytest.raises(ProblemError, match=why):
+        derive(problem_of(cart)).trim(at)
+
+
 def test_velocities_that_are_not_found_are_refused_in_one_line():
     kept = falling({"coefficient": 0, "at": [0, 0]}, potential=[])
     for made, at, free, why in (

@@ -1,5 +1,6 @@
 """Inputs in time: tables whose rows are held or joined, expressions, functions of the state."""
 
+import re
 import tomllib
 
 import numpy as np
@@ -7,6 +8,7 @@ import pytest
 
 from derive import MotionError, derive
 from derive.command.cli import main
+from derive.problem.problem import ProblemError
 from derive.problem.toml import problem_of
 from tests.problems import thrown
 from tests.support.needs import needs
@@ -81,6 +83,8 @@ def test_from_a_file_through_the_command(tmp_path, capsys):
         ("t,F_1\n0.5,1\n", "the first time is 0.5: a motion begins at t = 0"),
         ("t,F_4\n0,1\n", "no input 'F_4'; did you mean"),
         ("t,F_1,F_1\n0,1,2\n", "two columns of one name"),
+        ("t,F_1,F_1 [N]\n0,1,2\n", "two columns of one name"),
+        ("t [ms],F_1\n0,1\n", "t is in s, not in 'ms': convert the column"),
     ],
 )
 def test_a_bad_table_is_told(tmp_path, capsys, text, words):
@@ -224,7 +228,62 @@ def test_a_run_that_goes_on_has_its_signals_again(tmp_path, capsys):
     assert f"T_3 = {at[0] + speed + at[1]:.6g}" in told.out
 
 
+def test_a_name_may_have_its_unit(tmp_path, capsys):
+    """As the columns of runs have it; of a number whose unit is not known it is not looked at."""
+    path, table = tmp_path / "ball.toml", tmp_path / "push.csv"
+    command = ["simulate", str(path), "--t", "1", "--input", str(table)]
+    for parameters, unit in (UNITED, "N"), (UNITED, "kg m/s^2"), ("w = 3.0", "kN"):
+        path.write_text(BALL.replace("w = 3.0", parameters))
+        ends = []
+        for head in ("t,F_3", f"t [s], F_3 [{unit}]"):
+            table.write_text(f"{head}\n0,1.2\n0.5,-3\n")
+            assert main(command) == 0
+            ends.append(capsys.readouterr().out)
+        assert ends[0] == ends[1] != ""
+    path.write_text(BALL.replace("w = 3.0", UNITED))
+    assert main(command) == 2
+    assert "F_3 is in N, not in 'kN': convert the column" in capsys.readouterr().err
+
+
+UNITED = 'w = { default = 3.0, unit = "kg" }'
+
+
+def test_a_number_beside_a_column_is_refused(tmp_path, capsys):
+    """Of the run that goes on it is none that anyone set: the column wins."""
+    path, table, run = (tmp_path / x for x in ("ball.toml", "push.csv", "run.npz"))
+    path.write_text(BALL)
+    table.write_text("t,F_3\n0,1.2\n0.5,-3\n")
+    command = ["simulate", str(path), "--t", "1", "--input", str(table)]
+    assert main([*command, "--set", "F_3=2"]) == 2
+    told = capsys.readouterr()
+    assert "F_3 has a column, and is set to a number too" in told.err
+    assert told.err.count("\n") == 1
+    with pytest.raises(MotionError, match="F_3 has a column"):
+        ball().simulate(1, start={"F_3": 2.0}, inputs={"t": [0], "F_3": [1]})
+    assert main([*command, "--out", str(run)]) == 0
+    assert main([*command, "--set", "F_1=2", "--state", str(run)]) == 0
+
+
+@pytest.mark.parametrize(
+    ("times", "words"),
+    [
+        ("[0, 2, 1]", "signal 1, times: number 3, 1, does not come after 2"),
+        ("[0, 2, 2]", "signal 1, times: number 3, 2, does not come after 2"),
+        ('[0, 1, "w/3"]', "signal 1, times: number 3, 1, does not come after 1"),
+        ("[0.5, 1, 2]", "signal 1, times: the first is 0.5: a motion begins at t = 0"),
+    ],
+)
+def test_times_of_a_signal_increase(times, words):
+    """Refused where the file is read; of a parameter without a default nothing is known there."""
+    with pytest.raises(ProblemError, match=re.escape(words)):
+        ball(RAMP.replace('[0, 0.5, "w/4"]', times))
+    text = BALL.replace("{ w = 3.0 }", "{ w = 3.0, p = {} }")
+    problem_of(tomllib.loads(text + RAMP.replace('[0, 0.5, "w/4"]', '[0, "p", 1]')))
+
+
 def test_in_an_ensemble_they_are_held():
-    vary = {"w": (1, 2)}
-    with pytest.raises(MotionError, match="F_3 is for one motion: hold it, as start F_3=0"):
-        ball(RAMP).simulate(1, ensemble=2, vary=vary)
+    """What is told is the number at the start, by the default of what is varied."""
+    cosine = SINE.replace("sin(w*t)", "2*w*cos(w*t)")
+    for signal, held in (RAMP.replace("[0, 2,", "[1.5, 2,"), "F_3=1.5"), (cosine, "F_1=6"):
+        with pytest.raises(MotionError, match=f"is for one motion: hold it, as start {held}$"):
+            ball(signal).simulate(1, ensemble=2, vary={"w": (1, 2)})

@@ -59,7 +59,8 @@ def drawn(kind, e, columns=(), word=str):
 
 def test_quantiles_are_those_of_the_motions_that_go_on():
     e = ensemble()
-    found = quantiles(e, "x_1", [0.0, 0.5, 1.0])
+    found, are_few = quantiles(e, "x_1", [0.0, 0.5, 1.0])
+    assert not are_few
     for i in range(len(e.t)):
         there = sorted(x for x in e.states[:, i, 0].tolist() if x == x)
         assert len(there) == (45 if i >= 10 else 50)
@@ -77,7 +78,23 @@ def test_a_band_lies_between_its_quantiles():
         good = e.states[e.status == 0, -1, 0]
         assert [at_end.min(), at_end.max()] == pytest.approx(np.quantile(good, levels).tolist())
     (line,) = panel.get_lines()
-    assert np.array_equal(line.get_ydata(), quantiles(e, "x_1", [0.5])[0])
+    assert np.array_equal(line.get_ydata(), quantiles(e, "x_1", [0.5])[0][0])
+
+
+def test_a_spread_ends_where_fewer_than_half_go_on():
+    """So many as half are drawn, of fewer nothing; the title says so, where it is so."""
+    e = ensemble()
+    a, k = e.varied.T
+    e.states[:, :, 0] = a[:, None] + k[:, None] * e.t
+    counts = np.array([50] * 10 + [25] * 5 + [24] * 5)
+    for i, count in enumerate(counts):
+        e.states[count:, i] = np.nan
+    found, are_few = quantiles(e, "x_1", [0.5])
+    assert are_few
+    assert np.array_equal(np.isfinite(found[0]), counts >= 25)
+    told = drawn("spread", e, word=language("fr").word).get_suptitle()
+    assert told.splitlines()[1] == "tracé tant que la moitié au moins des mouvements se poursuit"
+    assert "\n" not in drawn("spread", ensemble()).get_suptitle()
 
 
 def test_the_ends_are_those_of_the_motions():

@@ -22,7 +22,7 @@ ALLOWED = {
     "code": {"code", "routines", "record", "algebra", "language", "__init__"},
     "validate": {"validate", "check", "record", "algebra", "language"},
     "motion": {"motion", "code", "views/figure", "problem", *BELOW},
-    "compare": {"compare", "motion", "code", "problem", "schema", "language"},
+    "compare": {"compare", "motion", "code", "problem", "schema", "algebra", "language"},
     "views": {
         *("views", "views/figure", "views/printing", "views/paper"),
         *("record", "record/prose", "schema", "algebra", "language"),

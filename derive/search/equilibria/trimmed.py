@@ -51,6 +51,8 @@ from .trim import Bounds, EnclosedTrim, Question, Trim
 
 EXACT = 2**40
 """A number of a program with a larger power of two below is one that has no fraction, as π."""
+NO_PIVOT = 1e-12
+"""A determinant or a difference in floats that is smaller, beside the numbers, is 0."""
 PRIME = 2**61 - 1
 """p, in the place of a root that is 0: F(x, p) − F(x, 0) is 0 modulo p² where ∂F/∂s is 0."""
 
@@ -312,6 +314,9 @@ def trimmed(
         question = EnclosedQuestion(*given)
         found = question.answered(str(error))
     except ZeroDivisionError:
+        if singular_mass(question):
+            why = "the mass matrix is singular in this state: a velocity has no kinetic energy"
+            raise NoTrimError(why) from None
         raise NoTrimError("what acts has no value in this state: it divides by 0") from None
     numbers = {**found.state, **found.inputs}
     radius = found.radius if isinstance(found, EnclosedTrim) else 0
@@ -323,6 +328,30 @@ def trimmed(
         which = "the trim that is found" if found.sought else "the trim"
         raise NoTrimError(f"{which} is out of bounds: {'; '.join(outside)}")
     return found
+
+
+def singular_mass(question: Question) -> bool:
+    """Is the mass matrix singular in the state?  It is the second differences of the energy, where
+    that is quadratic in the velocity; no where it has no value either."""
+    first, d = len(question.x) - question.d, question.d
+
+    def energy(*moving: int) -> float:
+        x = [float(y) for y in question.x[:first]] + [0.0] * d
+        for a in moving:
+            x[first + a] += 1.0
+        return float(question.evaluated("energy", x, question.u, FLOATS)[0])
+
+    try:
+        still, own = energy(), [energy(a) for a in range(d)]
+        M = [[energy(a, b) - own[a] - own[b] + still for b in range(d)] for a in range(d)]
+        # of a quadratic one a second step does as much as the first
+        thrice = [energy(a, a, a) - 3 * energy(a, a) + 3 * own[a] - still for a in range(d)]
+    except (KeyError, ZeroDivisionError, ValueError, OverflowError):
+        return False
+    largest = max(abs(x) for row in M for x in row)
+    if any(abs(x) > NO_PIVOT * largest for x in thrice):
+        return False
+    return bool(abs(q.determinant(q.matrix(M))) <= NO_PIVOT * largest**d)
 
 
 def _as_decimals(x: Number, found: Trim) -> str:

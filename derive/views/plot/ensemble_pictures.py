@@ -97,12 +97,15 @@ def size_of_spread(e: Ensemble, chosen: Sequence[str]) -> tuple[float, float]:
 
 def spread(figure: Any, e: Ensemble, word: Any, chosen: Sequence[str]) -> None:
     """Each column in time, a panel each: its median, and bands from the 5th percentile to the
-    95th and from the 25th to the 75th, over the motions that go on at an instant."""
+    95th and from the 25th to the 75th, over the motions that go on at an instant, up to where
+    fewer than half of them do."""
     names = differing(e, chosen, PANELS)
     panels = _panels(figure, len(names))
+    cut = False
     for panel, name in zip(panels, names, strict=True):
         levels = [x for low, high, _ in BANDS for x in (low, high)]
-        found = quantiles(e, name, [0.5, *levels])
+        found, are_few = quantiles(e, name, [0.5, *levels])
+        cut = cut or are_few
         for k, (*_, strength) in enumerate(BANDS):
             low, high = found[1 + 2 * k], found[2 + 2 * k]
             panel.fill_between(e.t, low, high, color=COLOURS[0], alpha=strength, lw=0)
@@ -111,19 +114,24 @@ def spread(figure: Any, e: Ensemble, word: Any, chosen: Sequence[str]) -> None:
         panel.set_xlim(e.t[0], e.t[-1])
     for panel in panels[-WIDE:]:
         panel.set_xlabel(named(e, TIME))
-    told = word("median, bands of 50 % and 90 %")
-    figure.suptitle(f"{told} – {reached(e, word)}", fontsize=8)
+    told = f"{word('median, bands of 50 % and 90 %')} – {reached(e, word)}"
+    told += f"\n{word('drawn while at least half of the motions go on')}" * cut
+    figure.suptitle(told, fontsize=8)
 
 
-def quantiles(e: Ensemble, name: str, levels: Sequence[float]) -> Array:
-    """Quantiles of a column at each instant, (levels, instants), over the motions that are there;
-    one instant after the other, so that an ensemble on the disk need not fit in memory."""
-    j, rows = e.names.index(name), []
+def quantiles(e: Ensemble, name: str, levels: Sequence[float]) -> tuple[Array, bool]:
+    """Quantiles of a column at each instant, (levels, instants), over the motions that are there,
+    NaN where these are fewer than half of the most there are: who is left last is no sample of
+    all; and is this so anywhere?  One instant after the other, so that an ensemble on the disk need
+    not fit in memory."""
+    j, rows, counts = e.names.index(name), [], []
     for i in range(len(e.t)):
         values = np.asarray(e.states[:, i, j], dtype=float)
         values = values[np.isfinite(values)]
+        counts.append(len(values))
         rows.append(np.quantile(values, levels) if len(values) else [math.nan] * len(levels))
-    return np.array(rows).T
+    few = 2 * np.array(counts) < max(counts)
+    return np.where(few, math.nan, np.array(rows).T), bool(few.any())
 
 
 def _panels(figure: Any, count: int) -> list[Any]:
