@@ -167,7 +167,7 @@ def off_the_axes(d: Derivation, steps: Sequence[Step], ran: Ran | None) -> Itera
                 middle = (low + high) / 2
                 low, high = (middle, high) if at(middle) * first > 0 else (low, middle)
             kind = "least" if first < 0 else "greatest"
-            found.append(lecture(kind, letter=show(u), value=_thousandths(low)))
+            found.append(lecture(kind, point=f"{show(u)} = {_thousandths(low)}"))
     labels = [s.label for s in steps if s.label.endswith(".effective")]
     places = enumerated(found or [lecture("no_value")])
     yield stated("off_the_axes", labels, letter=show(u), given=_told(given), places=places)

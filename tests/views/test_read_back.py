@@ -117,7 +117,7 @@ BESIDE = [
     *(f"symmetries {x}" for x in symmetric.FILES),
     *("discrete so3", "discrete se3", "discrete top"),
 ]
-COUNT = 34
+COUNT = 36
 """Integrals and equilibria of :func:`.every_record`."""
 
 
