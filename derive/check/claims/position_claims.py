@@ -86,7 +86,8 @@ def _energy(system: ReducedSystem, step: Step, claim: Claim) -> str:
             there = [value_of(point.get(x, 0)) for x in row]
             along = sum(x * y for x, y in zip(u, there, strict=True))
             both = sum(x * x for x in u) * sum(x * x for x in there)
-            if (along < 0) is not lowest or both > (1 + apart) * along * along:
+            level = not along  # where the energy is of no entry, all positions are alike
+            if level or (along < 0) is not lowest or both > (1 + apart) * along * along:
                 return "the potential energy is less, or greater, elsewhere"
     return ""
 
