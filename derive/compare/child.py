@@ -72,6 +72,8 @@ def results(
 def in_python(path: str, call: Mapping[str, Any]) -> Callable[[Sequence[Any]], Any]:
     """A function of a module, which gives its result or writes it into an argument."""
     name, size = call["name"], call["size"]
+    # the folder is the user's, and byte code of a file that is edited within a second is stale
+    sys.dont_write_bytecode = True
     sys.path.insert(0, str(Path(path).parent))
     try:
         spec = importlib.util.spec_from_file_location(Path(path).stem, path)

@@ -70,6 +70,7 @@ def test_a_product_by_blocks_and_by_angles(said, capsys, tmp_path):
     name = "zeta2_1" if "zeta2_1" in STATES[said] else "zeta_2"
     assert f", {name} (" in told.out.splitlines()[0]
     assert "c has the other sign" in told.out
+    assert not (tmp_path / "__pycache__").exists()
 
 
 def test_an_angle_and_its_rate_are_in_degrees(capsys, tmp_path):
