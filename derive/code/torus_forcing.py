@@ -15,7 +15,7 @@ from .naming import plain_text
 
 
 @dataclass(frozen=True)
-class Outside:
+class EmittedForcing:
     """What acts from outside in a record: the names of the numbers of its input; ``damping``: a
     coefficient for each power of |n|², 0 where there is none; ``parameters``: those in these."""
 
@@ -24,12 +24,12 @@ class Outside:
     parameters: tuple[str, ...]
 
     @staticmethod
-    def of(d: Derivation, torus: TorusLattice) -> Outside:
+    def of(d: Derivation, torus: TorusLattice) -> EmittedForcing:
         """That of a record."""
         told = {x["power"]: decode(x["coefficient"], "damping") for x in d.problem["damping"]}
         inputs = (f"{x['name']}_{y}" for x in d.problem["inputs"] for y in torus.coefficients)
         used = {name for t in told.values() for name in names(t)}
-        return Outside(
+        return EmittedForcing(
             tuple(inputs),
             tuple(told.get(p, 0) for p in range(max(told, default=-1) + 1)),
             tuple(x for x in d.problem["parameters"] if x in used),

@@ -14,7 +14,7 @@ import mpmath
 from ..algebra.structure import Place, TorusLattice
 from ..routines import printer_of, text_of
 from .program import EmittedFunction, Load
-from .torus_forcing import Outside
+from .torus_forcing import EmittedForcing
 
 TABLE = 7
 """The largest N of which C has a table of terms: at 9 the matrices take less time."""
@@ -57,13 +57,13 @@ class Loops:
         return _rounded(1 / (4 * Fraction(math.pi)))
 
 
-def loops(torus: TorusLattice, names: Collection[str], outside: Outside) -> Loops:
+def loops(torus: TorusLattice, names: Collection[str], forcing: EmittedForcing) -> Loops:
     """The tables for one N."""
     N, h = torus.N, torus.half
     turn, product = 4 * h * (h + 1) ** 2, 4 * N**3
     by_three = 3 * N**3  # products of complex numbers by three real ones
     whole, least = 3 * turn + product, 3 * turn + by_three
-    driven, damping = bool(outside.inputs), len(outside.damping)
+    driven, damping = bool(forcing.inputs), len(forcing.damping)
     by_table = N <= TABLE and not (driven or damping)
     table = tuple(_terms(torus, n) for n in torus.half_plane) if by_table else ()
     few = (N * N - 1) * (driven + (damping + 1) * bool(damping))  # of what acts from outside
@@ -120,13 +120,13 @@ def _cosine(turns: Fraction) -> Fraction:
         return Fraction(str(mpmath.cospi(half_turns)))
 
 
-def looped(torus: TorusLattice, outside: Outside) -> dict[str, EmittedFunction]:
+def looped(torus: TorusLattice, forcing: EmittedForcing) -> dict[str, EmittedFunction]:
     """Functions of which only what they read and how much they write is said here."""
 
     def hollow(count: int, reads: str = "x") -> EmittedFunction:
         return EmittedFunction(tuple(Load(x, x, 0) for x in reads), (), (Fraction(0),) * count)
 
-    of_rates = "x" + "u" * bool(outside.inputs) + "k" * bool(outside.damping)
+    of_rates = "x" + "u" * bool(forcing.inputs) + "k" * bool(forcing.damping)
     return {
         "rhs": hollow(torus.N**2 - 1, of_rates),
         "energy": hollow(1),

@@ -27,7 +27,7 @@ from .options import Options
 from .program import EmittedFunction, LoweringError, Program
 from .requests import require_options
 from .schedule import Scheduler, frontier, leaf_places
-from .torus_forcing import Outside
+from .torus_forcing import EmittedForcing
 from .torus_loops import CONSERVED, TABLE, looped, loops
 from .watched_functions import EmittedEvent, table, values_of
 
@@ -157,14 +157,14 @@ def torus_program(
     ``events``: what is watched on a motion."""
     chosen = options or Options()
     require_on_torus(d, chosen)
-    outside = Outside.of(d, torus)
-    functions = looped(torus, outside)
+    forcing = EmittedForcing.of(d, torus)
+    functions = looped(torus, forcing)
     if not chosen.conserved:
         del functions["conserved"]
-    own, constants = (_written_out if torus.N <= WRITTEN_OUT else _constants)(d, torus, outside)
+    own, constants = (_written_out if torus.N <= WRITTEN_OUT else _constants)(d, torus, forcing)
     functions |= own
     with_loops = {*functions} - {*own}
-    acting = outside.described()
+    acting = forcing.described()
     if events:
         functions["events"] = _watched(d.name, torus, events)
     return Program(
@@ -186,14 +186,14 @@ def torus_program(
             *(_scratch(torus) if torus.N > TABLE else ()),
         ),
         torus.coefficients,
-        tuple(parameter(d, x) for x in outside.parameters),
-        outside.inputs,
+        tuple(parameter(d, x) for x in forcing.parameters),
+        forcing.inputs,
         constants,
         (),
         functions,
         conserved=CONSERVED if chosen.conserved else (),
         events=table(events),
-        loops=loops(torus, with_loops, outside) if with_loops else None,
+        loops=loops(torus, with_loops, forcing) if with_loops else None,
         on_torus=True,
     )
 
@@ -219,24 +219,24 @@ def _scratch(torus: TorusLattice) -> tuple[str, ...]:
 
 
 def _constants(
-    d: Derivation, torus: TorusLattice, outside: Outside
+    d: Derivation, torus: TorusLattice, forcing: EmittedForcing
 ) -> tuple[dict[str, EmittedFunction], tuple[str, ...]]:
     """The coefficients of damping that loops read, power by power, and their names."""
     graph, claimed = Graph(), ClaimedNames()
-    known = {x: graph.leaf(x, "parameter") for x in outside.parameters}
+    known = {x: graph.leaf(x, "parameter") for x in forcing.parameters}
     given = leaf_places(claimed, known.values(), "p")
-    found = [value(t, {}, known, graph.function, graph.num) for t in outside.damping]
+    found = [value(t, {}, known, graph.function, graph.num) for t in forcing.damping]
     constants = tuple(claimed.claim(f"damping_{p}", f"power {p}") for p in range(len(found)))
     return {"constants": Scheduler(claimed, {}).function(found, given)}, constants
 
 
 def _written_out(
-    d: Derivation, torus: TorusLattice, outside: Outside
+    d: Derivation, torus: TorusLattice, forcing: EmittedForcing
 ) -> tuple[dict[str, EmittedFunction], tuple[str, ...]]:
     """The functions of the record's equations, term by term, and the names of the constants."""
     graph = Graph()
     state = _leaves(graph, torus)
-    inputs = [graph.leaf(x, "input") for x in outside.inputs]
+    inputs = [graph.leaf(x, "input") for x in forcing.inputs]
     out = WrittenOut(torus, graph, [*state.values()], inputs)
     motion, energy = d["motion"].equations[0].rhs, d["energy"].equations[0].rhs
     rates = [x for n in torus.half_plane for x in out.value(motion, {"𝐧": n})]
@@ -244,7 +244,7 @@ def _written_out(
     wanted = {name: factored(graph, found) for name, found in wanted.items()}
     claimed = ClaimedNames()
     places = leaf_places(claimed, state.values(), "x") | leaf_places(claimed, inputs, "u")
-    known = [graph.leaf(x, "parameter") for x in outside.parameters]
+    known = [graph.leaf(x, "parameter") for x in forcing.parameters]
     given = leaf_places(claimed, known, "p")
     scheduler = Scheduler(claimed, {})
     fixed = frontier(x for found in wanted.values() for x in found)

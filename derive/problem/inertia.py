@@ -203,7 +203,7 @@ def _listed(x: Vector) -> str:
 def negative_mass(body: Body | None, parameters: Mapping[str, Parameter]) -> str | None:
     """Where a mass is negative, for the defaults of the parameters, at the time 0 where it flows;
     ``None`` when nowhere."""
-    if isinstance(body, (GivenBody, MomentBody)) and _is_negative(body.moments().m, parameters):
+    if isinstance(body, (GivenBody, MomentBody)) and _starts_negative(body.moments().m, parameters):
         return "body: the mass"
     if isinstance(body, MomentBody):
         squares = ((f"J_{i}{i}", row[i - 1]) for i, row in enumerate(body.moments().J, 1))
@@ -214,7 +214,7 @@ def negative_mass(body: Body | None, parameters: Mapping[str, Parameter]) -> str
             if is_negative(density, parameters):
                 before = f", though not at {level - Fraction(1, TRIED)}," if level else ""
                 return f"body: the density of the {solid.kind} at the level s = {level}{before}"
-    where = (k for k, p in enumerate(points_of(body), 1) if _is_negative(p.mass, parameters))
+    where = (k for k, p in enumerate(points_of(body), 1) if _starts_negative(p.mass, parameters))
     return next((f"point {k}: key 'mass'" for k in where), None)
 
 
@@ -224,7 +224,7 @@ def is_negative(t: Tree, parameters: Mapping[str, Parameter]) -> bool:
     return found is not None and found < 0
 
 
-def _is_negative(mass: Tree, parameters: Mapping[str, Parameter]) -> bool:
+def _starts_negative(mass: Tree, parameters: Mapping[str, Parameter]) -> bool:
     """The same at the time 0, for a mass that flows."""
     return is_negative(replaced(mass, "t", 0), parameters)
 
@@ -278,20 +278,20 @@ def doubt_of_metric(second: Sequence[Sequence[Tree]], parameters: Mapping[str, P
     defaults of the parameters, and how, or singular as it is not for others; "" where it is
     positive, or where that is not known."""
     given = defaults(parameters)
-    M = _values(second, given)
+    M = _evaluated(second, given)
     if M is None:
         return ""
     least = _least(M)
     if least < -sum(abs(M[k][k]) for k in range(len(M))) / ROUNDED:
         told = f"its matrix has the eigenvalue {float(least):.4g}"
         return f"the kinetic energy is negative in some direction: {told}"
-    elsewhere = _values(second, {x: math.sqrt(k + 1 / 3) for k, x in enumerate(given, 1)})
+    elsewhere = _evaluated(second, {x: math.sqrt(k + 1 / 3) for k, x in enumerate(given, 1)})
     if elsewhere and q.rank(q.matrix(M)) < q.rank(q.matrix(elsewhere)):
         return "the kinetic energy is 0 in some direction for the values of the parameters"
     return ""
 
 
-def _values(
+def _evaluated(
     second: Sequence[Sequence[Tree]], values: Mapping[str, float]
 ) -> list[list[Fraction]] | None:
     found = [[approximate(t, values) for t in row] for row in second]

@@ -261,7 +261,7 @@ def torus_problem(
         raise ProblemError('inertia, trivialisation: a fluid moves on the "right"; leave it out')
     name = reader.name_of(data)
     reader.carries(None, parameters)
-    inputs, damping = _outside(data, reader)
+    inputs, damping = _forcing(data, reader)
     title, motion = reader.title_of(data, name), motion_fields(data, reader)
     return Problem(
         name,
@@ -275,7 +275,7 @@ def torus_problem(
     )
 
 
-def _outside(
+def _forcing(
     data: Mapping[str, Any], reader: FileReader
 ) -> tuple[tuple[CovectorInput, ...], tuple[LaplacianDamping, ...]]:
     """What acts on the vorticity from outside dϖ: a covector, and multiples of powers of −Δ."""

@@ -25,7 +25,7 @@ FIELDS = (("δt", "δA"), ("δ′t", "δ′A"))
 Numbers = Sequence[Sequence[int]]
 
 
-class Field:
+class SymmetryField:
     """A field δt, δA, told by trees, at points modulo p: Y = δA A⁻¹ and X = A⁻¹ δA."""
 
     def __init__(self, found: SymmetryCount, time: Tree, displacement: Tree, p: int):
@@ -128,7 +128,7 @@ def _kind(found: SymmetryCount, _: Derivation, step: Step, claim: Claim) -> str:
 
 
 def _kinds(found: SymmetryCount, time: Tree, displacement: Tree, p: int) -> list[str]:
-    return [*Field(found, time, displacement, p).kinds]
+    return [*SymmetryField(found, time, displacement, p).kinds]
 
 
 JUDGES: dict[str, Judge] = dict.fromkeys(NAMES, _kind)

@@ -265,7 +265,7 @@ def traced(e: Expr, elements: Mapping[Letter, Coefficient], order: int) -> Latti
 
 
 @dataclass(frozen=True)
-class Outside:
+class VorticityForcing:
     """Is there an input f̂?  ``damping``: the coefficients κ, each with p."""
 
     driven: bool
@@ -299,15 +299,20 @@ Terms = Mapping[int, Mapping[Pair, Fraction]]
 
 
 def modes(
-    phase: Phase, stream: Coefficient, rate: Unit, outside: Outside, motion: Step, c: Chapter
+    phase: Phase,
+    stream: Coefficient,
+    rate: Unit,
+    forcing: VorticityForcing,
+    motion: Step,
+    c: Chapter,
 ) -> Step:
-    """dω̂(n)/dt for one of n and −n, of Ẇ = rate · [W, P] and what acts from ``outside``;
+    """dω̂(n)/dt for one of n and −n, of Ẇ = rate · [W, P] and what acts by ``forcing``;
     ``stream``: P by ω̂."""
     draft = c.draft("modes", "evaluation", motion)
     torus, found = TorusLattice(phase.N), commutator(TorusLattice(phase.N), stream.power)
     unit = rate * stream.unit * phase.bracket(M, N)[0]
     told = [
-        Equation(("call", "d/dt", at(n)), add(total(phase, unit, found[n]), outside.at_place(n)))
+        Equation(("call", "d/dt", at(n)), add(total(phase, unit, found[n]), forcing.at_place(n)))
         for n in torus.half_plane
     ]
     return draft.step(told, say("modes.torus"))

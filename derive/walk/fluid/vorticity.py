@@ -20,9 +20,9 @@ from .lattice import (
     LatticeForm,
     M,
     N,
-    Outside,
     Phase,
     Unit,
+    VorticityForcing,
     bracket_at,
     minus,
     modes,
@@ -88,21 +88,21 @@ def torus_steps(
     algebra, lagrangian = _algebra(phase, first, c), _lagrangian(fluid, general, first, c)
     momenta = _momenta(fluid, (first, lagrangian, general["momenta"]), c)
     flow, energy = _stream(fluid, momenta, c), _energy(fluid, (momenta, general["energy"]), c)
-    rate, outside = coadjoint_rate(fluid, general.epsilon, a), acting(problem)
-    c = c.with_input() if outside else c
-    forced = (_forcing(outside, momenta, c),) if outside else ()
+    rate, forcing = coadjoint_rate(fluid, general.epsilon, a), acting(problem)
+    c = c.with_input() if forcing else c
+    forced = (_forcing(forcing, momenta, c),) if forcing else ()
     turning = _coadjoint(rate, general, (momenta, flow, *forced), c)
-    motion = _motion(phase, fluid, rate, outside, (turning, flow, algebra, momenta, *forced), c)
-    told = [modes(phase, fluid.stream, rate, outside, motion, c)] if torus.N <= LARGEST else []
-    kept = _conserved(fluid, torus, outside, (turning, energy, momenta, *forced), c)
+    motion = _motion(phase, fluid, rate, forcing, (turning, flow, algebra, momenta, *forced), c)
+    told = [modes(phase, fluid.stream, rate, forcing, motion, c)] if torus.N <= LARGEST else []
+    kept = _conserved(fluid, torus, forcing, (turning, energy, momenta, *forced), c)
     found = first, algebra, lagrangian, momenta, flow, energy, *forced, turning, motion
     return *found, *told, kept
 
 
-def acting(problem: Problem) -> Outside:
+def acting(problem: Problem) -> VorticityForcing:
     """What acts from outside dϖ."""
     decay = tuple((x.coefficient, x.power) for x in problem.decay)
-    return Outside(bool(problem.covector), decay)
+    return VorticityForcing(bool(problem.covector), decay)
 
 
 def _basis(phase: Phase, fluid: ZeitlinFluid, general: AnyLagrangian, c: Chapter) -> Step:
@@ -167,12 +167,12 @@ def coadjoint_rate(fluid: ZeitlinFluid, epsilon: int, a: Alphabet) -> Unit:
     return fluid.velocity * sign_of(rate, BRACKET)
 
 
-def _forcing(outside: Outside, momenta: Step, c: Chapter) -> Step:
+def _forcing(forcing: VorticityForcing, momenta: Step, c: Chapter) -> Step:
     """The covector that acts, as a matrix with the coefficients that W has of the momentum."""
     draft = c.draft("forcing", "input", momenta)
-    given = say("forcing.torus") + (say("forcing.torus_input") if outside.driven else ())
-    given += say("forcing.torus_damping") if outside.damping else ()
-    return draft.step([Equation("F", summed(outside.at))], given)
+    given = say("forcing.torus") + (say("forcing.torus_input") if forcing.driven else ())
+    given += say("forcing.torus_damping") if forcing.damping else ()
+    return draft.step([Equation("F", summed(forcing.at))], given)
 
 
 def _coadjoint(rate: Unit, general: AnyLagrangian, made_from: tuple[Step, ...], c: Chapter) -> Step:
@@ -187,7 +187,7 @@ def _motion(
     phase: Phase,
     fluid: ZeitlinFluid,
     rate: Unit,
-    outside: Outside,
+    forcing: VorticityForcing,
     made_from: tuple[Step, ...],
     c: Chapter,
 ) -> Step:
@@ -195,21 +195,21 @@ def _motion(
     draft = c.draft("motion", "solution", *made_from)
     unit, total = bracket_at(phase, Coefficient("ω̂").at, fluid.stream.at)
     unit = rate * fluid.stream.unit * unit
-    found = add(unit.times(total), outside.at(N))
-    told = say("motion.torus_driven" if outside else "motion.torus")
+    found = add(unit.times(total), forcing.at(N))
+    told = say("motion.torus_driven" if forcing else "motion.torus")
     return draft.step([Equation(("call", "d/dt", of("ω̂", N)), found)], told)
 
 
 def _conserved(
     fluid: ZeitlinFluid,
     torus: TorusLattice,
-    outside: Outside,
+    forcing: VorticityForcing,
     made_from: tuple[Step, ...],
     c: Chapter,
 ) -> Step:
     """The rates of the energy and of Tr Wᵏ, traces of a product with a bracket of one of its
     factors: those by what acts from outside, and 0 where nothing does."""
-    label, rule = ("power", "power") if outside else ("conserved", "conservation")
+    label, rule = ("power", "power") if forcing else ("conserved", "conservation")
     draft = c.draft(label, rule, *made_from)
     dW, forced, vorticity = Letter("δW", "n", "n"), word(Letter("F", "n", "n")), Coefficient("ω̂")
     elements = {W: vorticity, P: fluid.stream, dW: Coefficient("δω̂")}
@@ -217,16 +217,16 @@ def _conserved(
     varied.over(along)  # δh̃ is a multiple of Tr P δW
     _require_zero(trace(word(P) * BRACKET))
     slope = varied.gradient("δω̂")
-    power = slope.unit.times(summed(outside.at, slope.at(minus(N)))) if outside else 0
+    power = slope.unit.times(summed(forcing.at, slope.at(minus(N)))) if forcing else 0
     told = [Equation(("call", "d/dt", "h̃"), power)]
     for k in CASIMIRS:
         kept = trace(word(*[W] * k))
         _require_zero(derivation(kept, {W: BRACKET}.get))
-        rate = draft.tree(derivation(kept, {W: forced}.get)) if outside else 0
+        rate = draft.tree(derivation(kept, {W: forced}.get)) if forcing else 0
         told.append(Equation(("call", "d/dt", ("tr", mul(*["W"] * k))), rate))
     enstrophy = traced(trace(word(W, W)), elements, torus.N)
     told.append(Equation(("tr", mul("W", "W")), enstrophy.tree()))
-    return draft.step(told, say("power.torus" if outside else "conserved.torus"))
+    return draft.step(told, say("power.torus" if forcing else "conserved.torus"))
 
 
 def _require_zero(e: Expr) -> None:
