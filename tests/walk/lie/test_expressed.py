@@ -204,19 +204,19 @@ def test_the_code_agrees(case, kind, by_brackets):
     text, right = advected.lagrangian(case).replace("^", "**"), side == "right"
     rng = np.random.default_rng(5)
     functions = {x: getattr(jnp, x) for x in ("sin", "exp")}
+    start, g = rng.normal(size=m), np.eye(len(E[0]))
+
+    def carried(g):
+        moved = rho(g)
+        return moved @ start if right else jnp.linalg.inv(moved) @ start
+
+    def lagrangian(t, g, zeta):
+        names = {f"zeta_{a}": x for a, x in enumerate(zeta, 1)}
+        names |= {f"x_{i}": x for i, x in enumerate(carried(g), 1)}
+        return eval(text, functions, names | {"t": t})
+
     for _ in range(2):
-        zeta, start, u = rng.normal(size=len(E)), rng.normal(size=m), rng.normal(size=len(E))
-        g = np.eye(len(E[0]))
-
-        def carried(g, start=start):
-            moved = rho(g)
-            return moved @ start if right else jnp.linalg.inv(moved) @ start
-
-        def lagrangian(t, g, zeta, carried=carried):
-            names = {f"zeta_{a}": x for a, x in enumerate(zeta, 1)}
-            names |= {f"x_{i}": x for i, x in enumerate(carried(g), 1)}
-            return eval(text, functions, names | {"t": t})
-
+        zeta, u = rng.normal(size=(2, len(E)))
         x = np.array([*zeta, *start])
         dx = found.rhs(0.4, x, found.constants([]), u)
         expected, _ = motion(lagrangian, E, 0.4, g, zeta, u, right=right)
