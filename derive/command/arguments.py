@@ -250,8 +250,14 @@ TYPES: dict[str, Callable[[str], Any]] = {
 } | {"reals": reals, "text_file": text_file}
 
 
-def parser(commands: Mapping[str, Command], about: str | None) -> argparse.ArgumentParser:
-    """The parser of all commands: name → function, whose docstring is its help."""
+def parser(
+    commands: Mapping[str, Command], about: str | None, words_typed: Sequence[str] | None = None
+) -> argparse.ArgumentParser:
+    """The parser of all commands: name → function, whose docstring is its help.
+
+    ``words_typed``: only commands that are among these have their options, as to make those of all
+    takes longer than to read a problem.
+    """
     lines = [f"{GROUPS.get(x, ''):5} {x:11} {run.__doc__}" for x, run in commands.items()]
     about, own = "\n".join([about or "", "", *lines]), argparse.RawDescriptionHelpFormatter
     top = Parser("derive", USAGE, about, BEGIN, formatter_class=own, add_help=False)
@@ -268,6 +274,7 @@ def parser(commands: Mapping[str, Command], about: str | None) -> argparse.Argum
         )  # fmt: skip
         one.set_defaults(run=run)
         one._optionals.title = "arguments"
+    asked = made.keys() if words_typed is None else made.keys() & {*words_typed}
     words, choices = _told()
     for section in re.split(r"\n\n+", OPTIONS.read_text(encoding="utf-8").strip())[1:]:
         names, *listed = re.split(r"\n {4}(?! )", section)
@@ -277,9 +284,9 @@ def parser(commands: Mapping[str, Command], about: str | None) -> argparse.Argum
                 title = line[2:]
                 continue
             spec, _, told = " ".join(line.split()).partition("| ")
-            for name in names.split():
+            for name in asked & {*names.split()}:
                 _add(made[name], title, spec.split(), told, words, choices)
-    for name, one in made.items():
+    for name, one in ((x, made[x]) for x in asked):
         last, each = one._action_groups[-1], name == "lecture"
         last.add_argument("--seconds", type=positive, metavar="N", help=EACH if each else STOP,
                           dest="search_seconds" if each else "seconds")  # fmt: skip

@@ -386,9 +386,8 @@ ABOUT = """Describe a body: here are its equations of motion, derived step by st
 step checked, and code that computes with them."""
 
 
-def run(options: argparse.ArgumentParser, argv: Sequence[str] | None) -> int:
+def run(options: argparse.ArgumentParser, given: Sequence[str]) -> int:
     """Run the command of the arguments: its exit code."""
-    given = sys.argv[1:] if argv is None else argv
     try:
         args = options.parse_args(given or ["--help"])
     except SystemExit:
@@ -426,9 +425,10 @@ def main(argv: Sequence[str] | None = None) -> int:
 
     if sys.stdout is None:  # closed by who started us
         sys.stdout = open(os.devnull, "w", encoding="utf-8")  # noqa: SIM115
+    given = sys.argv[1:] if argv is None else argv
     try:
         with replacing_unencodable():
-            status = run(parser(COMMANDS, ABOUT), argv)
+            status = run(parser(COMMANDS, ABOUT, given), given)
             sys.stdout.flush()
         return status
     except ENDING as error:

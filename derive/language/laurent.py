@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from fractions import Fraction
+from functools import cached_property
+from typing import Any
 
 from .rational import FieldElement
 from .tree import Tree, add, mul, names, plain, replaced
@@ -22,6 +24,27 @@ class OverlongError(ValueError):
     """A tree that has too many terms when it is multiplied out."""
 
 
+class Symbol(tuple[Any, ...]):
+    """A tree as a symbol: the same tuple, but its hash and how it is written, for which products
+    and sums ask again and again, are found once."""
+
+    @cached_property
+    def hashed(self) -> int:
+        """Its hash."""
+        return super().__hash__()
+
+    @cached_property
+    def text(self) -> str:
+        """How it is written."""
+        return repr(self)
+
+    def __hash__(self) -> int:
+        return self.hashed
+
+    def __reduce__(self) -> tuple[type, tuple[tuple[Any, ...]]]:
+        return tuple, (tuple(self),)  # in another process texts have another hash
+
+
 class Laurent(FieldElement):
     """A sum of q · monomial with exponents in Z; only a monomial can be divided by.
 
@@ -38,7 +61,7 @@ class Laurent(FieldElement):
     @classmethod
     def symbol(cls, name: Tree) -> Laurent:
         """The polynomial that is one symbol."""
-        return cls({((name, 1),): ONE})
+        return cls({((Symbol(name) if isinstance(name, tuple) else name, 1),): ONE})
 
     @classmethod
     def monomial(cls, factors: Iterable[tuple[Tree, int]], q: Fraction = ONE) -> Laurent:
@@ -101,7 +124,8 @@ def _product(m: Monomial, n: Iterable[tuple[Tree, int]]) -> Monomial:
 
 
 def _written(factor: tuple[Tree, int]) -> tuple[str, int]:
-    return repr(factor[0]), factor[1]
+    symbol, exponent = factor
+    return symbol.text if isinstance(symbol, Symbol) else repr(symbol), exponent
 
 
 # -- and trees ----------------------------------------------------------------------------------

@@ -159,8 +159,10 @@ def test_steps_alone(form, capsys):
     assert {"so3.euler", "linear.kernel"} <= shown <= {"so3.euler", "linear.kernel"}
 
 
-def test_steps_behind_an_option(capsys):
-    assert main(["walk", "so3", "--lang", "fr", "kernel"]) == 0
+@pytest.mark.parametrize("label", ["kernel", "so3.kernel"])
+def test_steps_behind_an_option(label, capsys):
+    """By the whole name, or without the problem's."""
+    assert main(["walk", "so3", "--lang", "fr", label]) == 0
     assert capsys.readouterr().out.startswith("so3.kernel")
 
 

@@ -1,6 +1,7 @@
 """Numbers of every class obey the laws of a field; within bounds, what is computed of them has all
 its values there, and Routh’s signs."""
 
+import pickle
 from fractions import Fraction
 from random import Random
 
@@ -147,3 +148,14 @@ def test_trees_have_their_values_in_it():
     assert arithmetic(("pow", "x", -2), known.get) == 1 / (x * x)
     with pytest.raises(ValueError, match="no value for the operator 'tr'"):
         arithmetic(("tr", "x"), known.get)
+
+
+def test_a_tree_as_a_symbol_is_the_same_tuple_in_any_process():
+    """Its hash, once found, does not go along: elsewhere texts have another."""
+    tree = ("div", 1, ("add", "x", Fraction(13, 10)))
+    (((symbol, _),),) = Laurent.symbol(tree).terms
+    again = pickle.loads(pickle.dumps(symbol))
+    assert symbol == again == tree
+    assert hash(symbol) == hash(tree)
+    assert repr(symbol) == repr(tree)
+    assert type(again) is tuple

@@ -5,8 +5,6 @@ import json
 from xml.etree import ElementTree
 from zipfile import ZipFile
 
-import pytest
-
 from derive.command.showing import ready_made
 from derive.views.language import LANGUAGES
 from playground.site import built
@@ -517,15 +515,15 @@ def test_what_is_taken_is_shown_and_what_is_refused_is_told_beside(fresh, site):
     assert "no parameters" in fault.inner_text()
 
 
-@pytest.mark.parametrize("end", [".tex", ".html", ".json"])
-def test_each_text_is_saved(fresh, site, end):
+def test_each_text_is_saved(fresh, site):
     """None of them needs NumPy, which the page does not have."""
     visit(fresh, f"{site}#so3")
     fresh.click("#tab-take")
-    with fresh.expect_download() as waiting:
-        fresh.click(f"#take button:has-text('{end}')")
-    assert waiting.value.suggested_filename == f"so3{end}"
-    assert "so3.motion" in waiting.value.path().read_text(encoding="utf-8")
+    for end in (".tex", ".html", ".json"):
+        with fresh.expect_download() as waiting:
+            fresh.click(f"#take button:has-text('{end}')")
+        assert waiting.value.suggested_filename == f"so3{end}"
+        assert "so3.motion" in waiting.value.path().read_text(encoding="utf-8")
 
 
 # ---- what may happen to it
