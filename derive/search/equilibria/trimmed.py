@@ -331,27 +331,17 @@ def trimmed(
 
 
 def singular_mass(question: Question) -> bool:
-    """Is the mass matrix singular in the state?  It is the second differences of the energy, where
-    that is quadratic in the velocity; no where it has no value either."""
-    first, d = len(question.x) - question.d, question.d
-
-    def energy(*moving: int) -> float:
-        x = [float(y) for y in question.x[:first]] + [0.0] * d
-        for a in moving:
-            x[first + a] += 1.0
-        return float(question.evaluated("energy", x, question.u, FLOATS)[0])
-
+    """Is the mass matrix singular in the state?  No where it has no value either."""
+    d = question.d
     try:
-        still, own = energy(), [energy(a) for a in range(d)]
-        M = [[energy(a, b) - own[a] - own[b] + still for b in range(d)] for a in range(d)]
-        # of a quadratic one a second step does as much as the first
-        thrice = [energy(a, a, a) - 3 * energy(a, a) + 3 * own[a] - still for a in range(d)]
-    except (KeyError, ZeroDivisionError, ValueError, OverflowError):
+        found = [
+            float(y) for y in question.evaluated("mass_matrix", question.x, question.u, FLOATS)
+        ]
+    except (ZeroDivisionError, ValueError, OverflowError):
         return False
-    largest = max(abs(x) for row in M for x in row)
-    if any(abs(x) > NO_PIVOT * largest for x in thrice):
-        return False
-    return bool(abs(q.determinant(q.matrix(M))) <= NO_PIVOT * largest**d)
+    largest = max(map(abs, found))
+    M = q.matrix([[float(y) for y in found[a * d : a * d + d]] for a in range(d)])
+    return bool(abs(q.determinant(M)) <= NO_PIVOT * largest**d)
 
 
 def _as_decimals(x: Number, found: Trim) -> str:
