@@ -136,7 +136,7 @@ def trim(
     record = walk(problem)
     try:
         by = ("state", "inputs") if problem.inputs else ("state",)
-        made = program(problem, record, Options(jacobian=by))
+        made = program(problem, record, Options(jacobian=by, dynamics=True))
     except LoweringError:
         raise ProblemError(
             f"{problem.name}: a trim is by linearised equations on a whole group of matrices, "

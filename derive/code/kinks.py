@@ -36,12 +36,16 @@ def kinks(problem: Mapping[str, Any], group: Group) -> dict[str, tuple[str, ...]
     return {"rates": _comment(acting), "outputs": _comment(read)}
 
 
+STEEP = ("sqrt", "tanh", "atan")
+"""A root, as in |v| and so in sign, min and max, has derivatives that jump where it is 0; the
+others stand for a sign, and are nearly as steep as one there."""
+
+
 def may_bend(problem: Mapping[str, Any]) -> bool:
-    """Has a force of the problem of a record a root, as in |v| and so in sign, min and max, where
-    its derivatives may jump?"""
+    """Has a force of the problem of a record a function that is STEEP?"""
     given = [x for f in problem.get("forces", ()) for key in LAWS for x in f.get(key, ())]
     found = [x for t in given for x in nodes(decode(t, "law"))]
-    return any(isinstance(x, tuple) and x[:2] == ("fun", "sqrt") for x in found)
+    return any(isinstance(x, tuple) and x[0] == "fun" and x[1] in STEEP for x in found)
 
 
 def _comment(loci: list[str]) -> tuple[str, ...]:

@@ -119,6 +119,13 @@ def _sides(e: Equation) -> tuple[Tree, ...]:
     return (e.rhs,) if alone else (lhs, e.rhs)
 
 
+MOVING = {
+    "linear part of g": "linear part of the map that moves the body",
+    "translation of g": "translation of the map that moves the body",
+}
+"""What is said of parts of g where that is not among the letters."""
+
+
 def letters(d: Derivation, equations: Sequence[Equation], language: Language) -> Iterator[Letter]:
     """The names, the inputs and the parameters that occur in equations, with their meaning."""
     there = {x for e in equations for side in _sides(e) for x in nodes(side)}
@@ -131,6 +138,8 @@ def letters(d: Derivation, equations: Sequence[Equation], language: Language) ->
         family = s.name in families and not (s.name in equated and d.definition(s.name))
         if (s.name in plain or family) and s.name not in numbers - clashing(d):
             meaning = language.of(s.meaning)
+            if "g" not in plain and (moving := MOVING.get("".join(map(str, s.meaning)))):
+                meaning = language.word(moving)
             if s.name in told:
                 meaning = language.word("{meaning}, by its equation above", meaning=meaning)
             yield Letter((s.name,), meaning)
@@ -217,7 +226,8 @@ def summary(
 
 def answer_text(x: Summary, width: int = WIDTH) -> str:
     """The answer as text, no line longer than ``width`` columns (at least 40)."""
-    width, quoted = max(width, 40), clashing(x.record)
+    sides = [t for _, step in x.blocks for e in step.equations for t in (e.lhs, e.rhs)]
+    width, quoted = max(width, 40), clashing(x.record, {name for t in sides for name in names(t)})
     blocks = [[*paragraph(headline(x.record, x.language), 0, width)]]
     for said, step in x.blocks:
         equations = with_quotes(step.equations, quoted)

@@ -110,11 +110,12 @@ def letter_lines(
     yield from others
 
 
-def clashing(d: Derivation) -> frozenset[str]:
-    """The parameters that would read like a name of the walk; text sets them in quotes."""
+def clashing(d: Derivation, letters: Iterable[str] | None = None) -> frozenset[str]:
+    """The parameters that would read like a name of the walk, or like one of these ``letters``;
+    text sets them in quotes."""
     body = d.problem.get("body")
     symbolic = isinstance(body, Mapping) and body.get("kind") == "moments"
-    own = {"g", *(s.name for s in d.symbols)}
+    own = {"g", *(s.name for s in d.symbols)} if letters is None else {*letters}
     return unclear(own, named_numbers(d), symbolic)
 
 

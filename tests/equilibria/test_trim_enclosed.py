@@ -298,6 +298,29 @@ def test_a_boat_that_turns_has_its_trim_within_bounds():
         made.trim(*asked, bounds=bounds | {"rudder": (-2, 2)})
 
 
+def ahead(moment):
+    """The boat with this moment and no simple number in its drag, straight ahead with a thrust."""
+    drag = BOAT["force"][0] | {"force": ["-exp(v_1)*v_1", "-40*v_2"], "moment": [moment]}
+    made = derive(problem_of(BOAT | {"force": [drag]}))
+    return made, ({"thrust": Fraction(12)}, ["w_1"])
+
+
+def test_a_corner_that_is_a_factor_of_what_is_0_has_bounds():
+    """r|r| has the slope 0 at r = 0, where |r| has none: a step that is of the one is not of the
+    other."""
+    made, asked = ahead("-6*zeta_1 - zeta_1*abs(zeta_1)")
+    found = made.trim(*asked)
+    assert holds(found)
+    v = found.found.state["w_1"]
+    assert float(v) * np.exp(float(v)) == pytest.approx(12, rel=1e-9)
+    bent, _ = ahead("-6*zeta_1 - abs(zeta_1)")
+    with pytest.raises(ProblemError, match="has no derivative there"):
+        bent.trim(*asked)
+    step = found.record.steps[-1]
+    forged = replace(bent.record, steps=(*bent.record.steps, step))
+    assert "1 numbers are free in loads of 2 dimensions" in ClaimChecker(forged, SEED).fault(step)
+
+
 TILTED = {"A_22": "4/5", "A_23": "-3/5", "A_32": "3/5", "A_33": "4/5"}
 
 

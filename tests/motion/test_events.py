@@ -327,3 +327,23 @@ def test_the_default_step_sees_where_a_drag_bends(tmp_path):
     off = squared_speed(by_gauss["T_1"][-1], since, side) - by_gauss["w_1"][-1] ** 2
     assert abs(off) > 3e-9
     assert derive.derive("so3").simulate(0.1, points=1).facts["method"] == "gauss, tol 1e-09"
+
+
+@needs("the module scipy")
+@pytest.mark.parametrize("sign", ["tanh(v_1/eps)", "2*atan(v_1/eps)/3"])
+def test_the_default_step_sees_a_steep_friction(sign, tmp_path):
+    """A friction that stands for a sign of v, seven times through rest, by SciPy's integrator."""
+    from scipy import integrate
+
+    law = SLIDER.replace("-3/10*abs(v_1)*v_1", f"-{sign}/10").replace("eps", "(1/500)")
+    run = derive.derive(problem(tmp_path, law)).simulate(
+        20.0, start={"w_1": 1.0}, points=1, compiled=False
+    )
+    assert run.facts["method"] == "vern9, tol 1e-09"
+    steep = np.tanh if "tanh" in sign else lambda x: 2 * np.arctan(x) / 3
+
+    def rates(_, y):
+        return [y[1], -y[0] - steep(500 * y[1]) / 10]
+
+    by_scipy = integrate.solve_ivp(rates, (0, 20), [0, 1], "DOP853", rtol=1e-12, atol=1e-13)
+    assert abs(by_scipy.y[:, -1] - [run["T_1"][-1], run["w_1"][-1]]).max() < 1e-8

@@ -259,6 +259,10 @@ def _call(t: tuple[Any, ...], env: Environment) -> Value:
 
 
 def _function(t: tuple[Any, ...], env: Environment) -> Value:
+    if isinstance(env.elementary, ElementaryValues) and env.elementary.bounded:
+        match t:
+            case ("fun", "sqrt", ("pow", x, 2)):
+                return env.elementary.absolute(evaluate(x, env))
     value = evaluate(t[2], env)
     if env.elementary is None or is_matrix(value):
         raise EvaluationError(f"no value of the function {t[1]!r}")
@@ -359,6 +363,13 @@ class ElementaryValues:
             if isinstance(x, Graded):
                 self.graded_arguments.append(x)  # kept, so that its id is
         return self.values[name, at]
+
+    def absolute(self, x: Any) -> Any:
+        """|x| within bounds, its slopes from −1 to 1 where x may be 0: √(x²) has none there."""
+        if not isinstance(x, Varying):
+            return bounds("abs", x)
+        sign = Interval.of(x.value).sign
+        return x.chained(bounds("abs", x.value), sign or Interval.about(Fraction(0), Fraction(1)))
 
     def key(self, x: Any) -> Any:
         """What tells an argument from others."""

@@ -190,8 +190,9 @@ STATUSES = (
 """What steps return besides that they stand at an event: names, numbers, and what they say."""
 
 BENDS = (
-    "A force has a root, as in |v|: where that is 0 its derivatives may jump, which the estimate "
-    "of gauss does not see; its error is larger than tol then, and nearer to it with vern9."
+    "A force has a root, as in |v|, whose derivatives may jump where it is 0, or tanh or atan, "
+    "which may be steep: the estimate of gauss does not see that; its error is larger than tol "
+    "then, and nearer to it with vern9."
 )
 
 

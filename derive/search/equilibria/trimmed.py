@@ -51,6 +51,7 @@ from .trim import Bounds, EnclosedTrim, Question, Trim
 
 EXACT = 2**40
 """A number of a program with a larger power of two below is one that has no fraction, as π."""
+NO_SLOPE = "d{}/dt has no derivative there: a root is 0, and not a factor of what is"
 NO_PIVOT = 1e-12
 """A determinant or a difference in floats that is smaller, beside the numbers, is 0."""
 PRIME = 2**61 - 1
@@ -133,9 +134,7 @@ class ExactQuestion(Question):
             by = (y - x) / PRIME
             parts = (by.a, by.b) if isinstance(by, Quadratic) else (by,)
             if any(part.numerator % PRIME for part in parts):
-                raise NoTrimError(
-                    f"d{name}/dt has no derivative there: a root is 0, and not a factor of what is"
-                )
+                raise NoTrimError(NO_SLOPE.format(name))
         return bool(met)
 
     def solved(self, columns: Matrix, held: Sequence[Number]) -> dict[str, Number]:
@@ -167,6 +166,7 @@ class ExactQuestion(Question):
 
 
 INTERVALS = Arithmetic(Interval.of, function)
+LITTLE = Fraction(1, 2**100)
 DIGITS = 11
 """The radius is a power of ten, so many times smaller than the largest number."""
 REFINED = 4
@@ -201,6 +201,7 @@ class EnclosedQuestion(Question):
             near = [decimal(x, radius) for x in y]
             box = self.enclosed(f, near, radius)
             x, u = self.at(box)
+            self.require_slopes(x, u)
             matrix = self.linear(x, u)
         except (UnknownSignError, ZeroDivisionError) as error:
             raise NoTrimError(f"{why}; and within bounds {error}") from None
@@ -227,6 +228,20 @@ class EnclosedQuestion(Question):
             radius=radius,
             right=self.right,
         )
+
+    def require_slopes(self, x: Sequence[Any], u: Sequence[Any]) -> None:
+        """``NoTrimError`` where the rates change with a little in the place of a root that is 0."""
+
+        def call(name: str, x: Any) -> Any:
+            return Interval.of(LITTLE) if x == 0 and name in ("sqrt", "abs") else function(name, x)
+
+        held, bent = (
+            self.evaluated("rhs", x, u, f) for f in (INTERVALS, replace(INTERVALS, call=call))
+        )
+        for name, y, z in [*zip(self.program.state, held, bent, strict=True)][-self.d :]:
+            # of its square the rates change by less
+            if (Interval.of(z) - y).size > LITTLE / 2**40:
+                raise NoTrimError(NO_SLOPE.format(name))
 
     def enclosed(self, f: Rates, near: Sequence[Fraction], radius: Fraction) -> Box:
         """Narrow bounds of the one solution within a radius; ``NoTrimError`` where that is not
@@ -331,27 +346,17 @@ def trimmed(
 
 
 def singular_mass(question: Question) -> bool:
-    """Is the mass matrix singular in the state?  It is the second differences of the energy, where
-    that is quadratic in the velocity; no where it has no value either."""
-    first, d = len(question.x) - question.d, question.d
-
-    def energy(*moving: int) -> float:
-        x = [float(y) for y in question.x[:first]] + [0.0] * d
-        for a in moving:
-            x[first + a] += 1.0
-        return float(question.evaluated("energy", x, question.u, FLOATS)[0])
-
+    """Is the mass matrix singular in the state?  No where it has no value either."""
+    d = question.d
     try:
-        still, own = energy(), [energy(a) for a in range(d)]
-        M = [[energy(a, b) - own[a] - own[b] + still for b in range(d)] for a in range(d)]
-        # of a quadratic one a second step does as much as the first
-        thrice = [energy(a, a, a) - 3 * energy(a, a) + 3 * own[a] - still for a in range(d)]
-    except (KeyError, ZeroDivisionError, ValueError, OverflowError):
+        found = [
+            float(y) for y in question.evaluated("mass_matrix", question.x, question.u, FLOATS)
+        ]
+    except (ZeroDivisionError, ValueError, OverflowError):
         return False
-    largest = max(abs(x) for row in M for x in row)
-    if any(abs(x) > NO_PIVOT * largest for x in thrice):
-        return False
-    return bool(abs(q.determinant(q.matrix(M))) <= NO_PIVOT * largest**d)
+    largest = max(map(abs, found))
+    M = q.matrix([[float(y) for y in found[a * d : a * d + d]] for a in range(d)])
+    return bool(abs(q.determinant(M)) <= NO_PIVOT * largest**d)
 
 
 def _as_decimals(x: Number, found: Trim) -> str:
