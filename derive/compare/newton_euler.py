@@ -19,7 +19,8 @@ from ..language.show import show
 from ..language.tree import Tree, nodes, replaced, sized
 from ..problem.fields import velocity_at_place
 from ..schema.force_kinds import StatedForce
-from .balance import EXACT, Balance, Term, cross, hats, through, turning
+from .balance import EXACT, Balance, Term
+from .cross_products import cross, hats, through, turning
 from .opened import called
 from .told import FACTORS, SIMPLE, Hypothesis
 from .users_code import Array
@@ -163,7 +164,7 @@ def of_wrenches(b: Balance, terms: list[Term]) -> Iterator[Hypothesis]:
         for term in terms:
             yield from of_frames(b, [term], term.name)
             yield from of_speeds(b, term)
-        for both in b.together():
+        for both in b.together() if inputs else ():
             yield from of_frames(b, inputs, both.name)
 
 
@@ -420,7 +421,7 @@ def of_added_mass(b: Balance) -> Iterator[Hypothesis]:
     problem = b.opened.problem
     if problem.lagrangian is None or not b.is_frame:
         return
-    operators = b.code.mass_matrix(b.t, b.x, b.k(b.values()))
+    operators = b.mass(b.values())
     M = operators[0]
     if np.abs(operators - M).max() > 1e-12 * np.abs(M).max():
         return

@@ -7,7 +7,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from .balance import Balance, Term, exact, through
+from .balance import Balance, Term, exact
+from .cross_products import through
 from .faults import NEARER, Explanation, named_vector, of_exchanges, of_terms, views
 from .newton_euler import of_axes, of_wrenches
 from .told import ABOUT, FACTORS, NEAR, Changed, changed, possible, told
