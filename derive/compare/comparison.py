@@ -330,8 +330,8 @@ def _of_transport(c: Comparison, off: Array, block: str) -> tuple[str, Array]:
     if kind_of(block) != "velocity" or len(place) < 3:
         return "", more
     x, state = c.ours(c.table)(c.given["x"]), c.program.state
-    own = (c.blocks[beside(block, kind)] for kind in ("matrix", "omega", "velocity"))
-    A, w, v = (x[:, [state.index(y) for y in names]] for names in own)
+    sides = (c.blocks[beside(block, kind)] for kind in ("matrix", "omega", "velocity"))
+    A, w, v = (x[:, [state.index(y) for y in names]] for names in sides)
     A = A.reshape(-1, 3, 3)
     turned = {"the body": (w, v), "space": tuple(np.einsum("nij,nj->ni", A, y) for y in (w, v))}
     in_space = there[0][0].said.get("frame") == "space"

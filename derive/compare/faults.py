@@ -12,9 +12,9 @@ import numpy as np
 
 from .balance import Balance, Part, Term, exact
 from .cross_products import through
+from .inertia_operators import of_added_mass, of_blocks
 from .newton_euler import (
     IN_MASS,
-    of_added_mass,
     of_axes,
     of_masses_held,
     of_newton_euler,
@@ -104,7 +104,9 @@ def explained(
 
     good = stage(hypotheses(b, terms))
     if not good or good[0].rank > 2:
-        good = stage(chain(of_numbers(b, parts_of(b, terms)), of_added_mass(b), of_sizes(b)))
+        good = stage(
+            chain(of_numbers(b, parts_of(b, terms)), of_added_mass(b), of_blocks(b), of_sizes(b))
+        )
     if good:
         return best(b, tried)
     if apart := within():
