@@ -238,7 +238,7 @@ def _rendered(
     """File name → text, of one language; ``places``: file name → template."""
     templates, fields = environment(language.name), _fields(p, d, asked, language)
     templates.globals |= {"lines": lines, "sections": sections, "prefixed": prefixed}
-    templates.globals["quoted"] = quoted
+    templates.globals |= {"quoted": quoted, "listed": listed}
     return {file: templates.get_template(x).render(fields) for file, x in places.items()}
 
 
@@ -254,8 +254,12 @@ def lines(found: Iterable[str]) -> str:
 
 def quoted(names: Iterable[str], width: int) -> str:
     """Names between quotation marks on lines of their own; nothing where there are none."""
-    listed = " ".join(f'"{x}",' for x in names)
-    rows = textwrap.wrap(listed, width, break_long_words=False)
+    return listed((f'"{x}"' for x in names), width)
+
+
+def listed(items: Iterable[str], width: int) -> str:
+    """Items on lines of their own, a comma after each; nothing where there are none."""
+    rows = textwrap.wrap(" ".join(f"{x}," for x in items), width, break_long_words=False)
     return "\n" + lines(rows) if rows else ""
 
 
@@ -299,6 +303,12 @@ def _fields(
         "parameters": parameters,
         **_lists(p),
         "defaults": [(x[0], repr(x[1])) for x in p.parameters if x[1] is not None],
+        "every_default": [
+            language.nan.format(real=language.reals[real])
+            if x[1] is None
+            else printer.number(Fraction(repr(x[1])))
+            for x in p.parameters
+        ],
         "affine": p.translates,
         "heading": [*generated, "", *heading(p, language, parameters, cost)],
         "functions": known,

@@ -18,7 +18,7 @@ from ..language.limits import BITS, COMMON_BITS, KEY_PARTS, LEAVES, PARAMETERS, 
 from ..language.tree import Tree, nodes
 from ..schema.body_kinds import Body, GivenBody, MomentBody
 from ..schema.kind import SECTIONS, Advected, Fluid, Parameter
-from ..schema.motion_kinds import OF_MASSES, OUTPUTS, ExpressionOutput
+from ..schema.motion_kinds import OF_MASSES, OUTPUTS, ExpressionOutput, fault_of_gravity
 from ..schema.table import ATTACHED, Table
 from . import inertia
 from .bodies import as_forces, body, forces, group_of, negative_stiffness_of, outputs, require_known
@@ -255,6 +255,8 @@ def _without_points(
                 f"output {k}: beside [{where}] are no points: give expressions 'y' of the state"
                 + ("" if advected is not None else f", or one of {', '.join(others)}")
             )
+        if wrong := fault_of_gravity(x, pointless=True):
+            raise ProblemError(f"output {k}: {wrong}")
     reader.knows_acting(inputs, stated)
     observed = outputs(data, reader, inputs, stated)
     problem = Problem(
