@@ -155,15 +155,27 @@ View = tuple[str, Array]
 
 def of_wrenches(b: Balance, terms: list[Term]) -> Iterator[Hypothesis]:
     """All of these, of the terms by themselves and of all inputs together."""
-    yield from of_attitude(b, terms)
-    yield from of_arms(b, terms)
+    for term in terms:
+        yield from of_wrench(b, term)
+    yield from of_all_wrenches(b, terms)
+
+
+def of_wrench(b: Balance, term: Term) -> Iterator[Hypothesis]:
+    """Those of one term: but for what it leaves, they are made of the term, of the centre of mass
+    and of the states alone."""
+    yield from of_attitude(b, [term])
+    yield from of_arms(b, [term])
     if b.is_frame:
-        inputs = [x for x in terms if x.is_input]
-        for term in terms:
-            yield from of_frames(b, [term], term.name)
-            yield from of_speeds(b, term)
-        for both in b.together() if inputs else ():
-            yield from of_frames(b, inputs, both.name)
+        yield from of_frames(b, [term], term.name)
+        yield from of_speeds(b, term)
+
+
+def of_all_wrenches(b: Balance, terms: list[Term]) -> Iterator[Hypothesis]:
+    """Those of all inputs, or of all that acts at a place, together."""
+    yield from of_arms(b, terms, together=True)
+    inputs = [x for x in terms if x.is_input]
+    for both in b.together() if inputs and b.is_frame else ():
+        yield from of_frames(b, inputs, both.name)
 
 
 def of_axes(b: Balance, term: Term, view: View) -> Iterator[Hypothesis]:
@@ -374,20 +386,21 @@ BY_AXES = {
 }
 
 
-def of_arms(b: Balance, terms: list[Term]) -> Iterator[Hypothesis]:
-    """An arm, or all arms, are taken from the centre of mass; or moments are about it."""
+def of_arms(b: Balance, terms: list[Term], together: bool = False) -> Iterator[Hypothesis]:
+    """An arm, or all arms ``together``, are taken from the centre of mass; or moments are about
+    it."""
     r = b.centre()
     if r is None or not r.any():
         return
     placed = [x for x in terms if x.arm is not None and x.at]
-    listed = [(f"the lever arm of {x.name('')} is", [x]) for x in placed]
+    listed = [(f"the lever arm of {x.name('')} is", [x]) for x in placed if not together]
     of_places = [x for x in placed if x.arm is not None and x.arm.ndim == 1]
     of_inputs = [x for x in of_places if x.is_input]
     for words, several in (
         ("all lever arms", of_places),
         ("the lever arms of all inputs", of_inputs),
     ):
-        listed += [(f"{words} are", several)] * (len(several) > 1)
+        listed += [(f"{words} are", several)] * (together and len(several) > 1)
     for (words, own), (sign, told) in product(listed, TAKEN.items()):
         moved = sum((_at_arm(b, x, sign * r) - x.values for x in own), 0 * b.a)
         yield Hypothesis(f"{words} {told}", 0, b.unexplained - moved)
