@@ -302,13 +302,7 @@ def _fields(
         "short": asked.short,
         "parameters": parameters,
         **_lists(p),
-        "defaults": [(x[0], repr(x[1])) for x in p.parameters if x[1] is not None],
-        "every_default": [
-            language.nan.format(real=language.reals[real])
-            if x[1] is None
-            else printer.number(Fraction(repr(x[1])))
-            for x in p.parameters
-        ],
+        **_defaults(p, language, real),
         "affine": p.translates,
         "heading": [*generated, "", *heading(p, language, parameters, cost)],
         "functions": known,
@@ -333,6 +327,15 @@ def _fields(
     if p.loops:
         fields["loops"] = _loops(p.loops, language.name, printer, fields)
     return fields
+
+
+def _defaults(p: Program, language: TargetLanguage, real: str) -> dict[str, Any]:
+    """Those of the parameters by name, of those that have one; and of all, in a language."""
+    written, absent = language.printer(real), language.nan.format(real=language.reals[real])
+    given = [(name, x) for name, x, *_ in p.parameters]
+    every = [absent if x is None else written.number(Fraction(repr(x))) for _, x in given]
+    named = [(name, repr(x)) for name, x in given if x is not None]
+    return {"defaults": named, "every_default": every}
 
 
 def _lists(p: Program) -> dict[str, Any]:
