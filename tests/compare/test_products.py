@@ -248,7 +248,7 @@ def test_faults(fault, tmp_path):
     ("state", "words"),
     [
         ('["omega"]', "'omega' means nothing here; did you mean 'omega"),
-        ('["matrix1", "quaternion2", "matrix2"]', "the state says twice A2_11"),
+        ('["matrix1", "position1", "quaternion2", "matrix2"]', "the state says twice A2_11"),
         ('["quaternion2", "omega2"]', "the state does not say A1_11"),
     ],
 )
