@@ -238,7 +238,7 @@ def _rendered(
     """File name → text, of one language; ``places``: file name → template."""
     templates, fields = environment(language.name), _fields(p, d, asked, language)
     templates.globals |= {"lines": lines, "sections": sections, "prefixed": prefixed}
-    templates.globals["quoted"] = quoted
+    templates.globals |= {"quoted": quoted, "listed": listed}
     return {file: templates.get_template(x).render(fields) for file, x in places.items()}
 
 
@@ -254,8 +254,12 @@ def lines(found: Iterable[str]) -> str:
 
 def quoted(names: Iterable[str], width: int) -> str:
     """Names between quotation marks on lines of their own; nothing where there are none."""
-    listed = " ".join(f'"{x}",' for x in names)
-    rows = textwrap.wrap(listed, width, break_long_words=False)
+    return listed((f'"{x}"' for x in names), width)
+
+
+def listed(items: Iterable[str], width: int) -> str:
+    """Items on lines of their own, a comma after each; nothing where there are none."""
+    rows = textwrap.wrap(" ".join(f"{x}," for x in items), width, break_long_words=False)
     return "\n" + lines(rows) if rows else ""
 
 
@@ -298,7 +302,7 @@ def _fields(
         "short": asked.short,
         "parameters": parameters,
         **_lists(p),
-        "defaults": [(x[0], repr(x[1])) for x in p.parameters if x[1] is not None],
+        **_defaults(p, language, real),
         "affine": p.translates,
         "heading": [*generated, "", *heading(p, language, parameters, cost)],
         "functions": known,
@@ -323,6 +327,15 @@ def _fields(
     if p.loops:
         fields["loops"] = _loops(p.loops, language.name, printer, fields)
     return fields
+
+
+def _defaults(p: Program, language: TargetLanguage, real: str) -> dict[str, Any]:
+    """Those of the parameters by name, of those that have one; and of all, in a language."""
+    written, absent = language.printer(real), language.nan.format(real=language.reals[real])
+    given = [(name, x) for name, x, *_ in p.parameters]
+    every = [absent if x is None else written.number(Fraction(repr(x))) for _, x in given]
+    named = [(name, repr(x)) for name, x in given if x is not None]
+    return {"defaults": named, "every_default": every}
 
 
 def _lists(p: Program) -> dict[str, Any]:

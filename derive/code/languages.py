@@ -123,7 +123,8 @@ class TargetLanguage:
     the names of the files: ``.rs`` is made of the template ``problem.rs``, ``.inline.h:.h`` is the
     file ``.h`` made of ``problem.inline.h``.
     ``declare``: a constant, of ``{real}``, ``{name}`` and ``{text}``; ``bundle``: the integrals
-    over an ellipsoid, where that is otherwise, with ``{prefix}`` as well; ``load`` reads entry
+    over an ellipsoid, where that is otherwise, with ``{prefix}`` as well; ``nan``: what is no
+    number, in a table of ``{real}``; ``load`` reads entry
     ``{index}`` (counted from ``first``) of an array; ``batch`` the same of state s of n.
     ``parenthesised``: a statement of several lines needs parentheses; ``continued``: what ends a
     line of it that goes on.
@@ -142,6 +143,7 @@ class TargetLanguage:
     comment: tuple[str, str, str]
     reals: Mapping[str, str]
     bundle: str = ""
+    nan: str = "NAN"
     load: str = "{array}[{index}]"
     batch: str = ""
     first: int = 0
@@ -245,6 +247,7 @@ _LANGUAGES = (
         SLASH,
         {"double": "f64", "float": "f32"},
         bundle="let {name} = {text};",
+        nan="{real}::NAN",
         batch="{array}[{index}][s]",
         steps=("gauss", "rk4", "vern9", "discrete"),
     ),
@@ -255,6 +258,7 @@ _LANGUAGES = (
         "{name} = {text}",
         HASH,
         {"double": "Float64", "float": "Float32"},
+        nan="{real}(NaN)",
         first=1,
         batch="{array}[s, {index}]",
         parenthesised=True,

@@ -17,7 +17,9 @@ from ..language.limits import Refused
 from ..language.tree import nodes, replaced
 from ..language.values import approximate
 from ..problem.problem import Problem
+from ..schema.body_kinds import by_block
 from ..schema.force_kinds import Acting
+from .cross_products import cross, hats, through, turning
 from .opened import ADDED, Opened, Slot, called
 from .users_code import Array
 
@@ -55,6 +57,7 @@ class Balance:
     ``parameters``: those of the problem by name; ``rows``: names of sets of rows → which;
     ``moving``: where the velocity stands in the state.
     ``changed``: numbers that are others in a hypothesis; ``more``: what it leaves besides.
+    ``part``, ``block``: of a factor of a product by itself, its rows of ζ and its number.
     """
 
     code: ModuleType
@@ -70,6 +73,8 @@ class Balance:
     changed: Mapping[str, float] = field(default_factory=dict)
     more: Array | float = 0.0
     codes: dict[str, ModuleType | None] = field(default_factory=dict)
+    part: slice = field(default_factory=lambda: slice(None))
+    block: int = 0
 
     def k(self, values: Mapping[str, float], code: ModuleType | None = None) -> Array:
         """The constants for all parameters by name; ``ValueError`` where no body has them."""
@@ -100,13 +105,14 @@ class Balance:
     def left(self, values: Mapping[str, float]) -> Array:
         """M a + b, (N, d), 0 where these parameters make our equations the user's; ``ValueError``
         where no body has them."""
-        b = self.code.bias(self.t, self.x, self.k(values), self.u)
+        b = self.code.bias(self.t, self.x, self.k(values), self.u)[:, self.part]
         found: Array = self.of_mass(values) + b + self.more
         return found
 
     def mass(self, values: Mapping[str, float]) -> Array:
         """The mass matrix at each state for all parameters by name."""
-        return np.asarray(self.code.mass_matrix(self.t, self.x, self.k(values)))
+        M = np.asarray(self.code.mass_matrix(self.t, self.x, self.k(values)))
+        return M[:, self.part, self.part]
 
     def checked(self, left: Array, own: Array) -> Array:
         """What is left with another mass matrix, by the rates that it stands for; ∞ for a mass that
@@ -131,9 +137,11 @@ class Balance:
         """The mass of the body, (N,), and where its centre is along its axes, (N, n), at each
         state."""
         problem = self.opened.problem
-        if problem.body is None or (problem.group and problem.group.factors):
+        several = problem.group is not None and bool(problem.group.factors)
+        bodies = by_block(problem.body) if problem.body else {}
+        if several is not bool(self.block) or (self.block or 1) not in bodies:
             return np.zeros(0), None
-        own, known = problem.body.moments(), self.values()
+        own, known = bodies[self.block or 1].moments(), self.values()
         trees, columns = (own.m, *own.c), {x: self.code.STATE.index(x) for x in problem.stored}
         timed = any("t" in nodes(x) for x in trees)
 
@@ -162,7 +170,8 @@ class Balance:
 
     def columns(self, letter: str) -> list[int]:
         """Where the entries of A, or of T, are in a state."""
-        return [i for i, x in enumerate(self.code.STATE) if x.startswith(f"{letter}_")]
+        begins = f"{letter}{self.block or ''}_"
+        return [i for i, x in enumerate(self.code.STATE) if x.startswith(begins)]
 
     def turns(self) -> Array:
         """The matrices A of the states, (N, n, n)."""
@@ -247,7 +256,7 @@ class Balance:
         if id(module) not in self._constants:
             self._constants[id(module)] = self.k(self.values(), module)
         found: Array = module.bias(self.t, x, self._constants[id(module)], u)
-        return found
+        return found[:, self.part]
 
     def terms(self) -> Iterator[Term]:
         """What stands in M a = Σ terms: inputs, forces, damping, potentials, then what is left, by
@@ -324,7 +333,7 @@ class Balance:
         def part(values: Mapping[str, float]) -> Array:
             k, less = self.k(values), self.k(values, without)
             bare: Array = without.bias(self.t, self.x, less, self.u)
-            return np.asarray(self.code.bias(self.t, self.x, k, self.u) - bare)
+            return np.asarray(self.code.bias(self.t, self.x, k, self.u) - bare)[:, self.part]
 
         return part
 
@@ -337,7 +346,12 @@ class Balance:
         rest = self._bare()
         if rest is None:
             return None
-        return lambda values: rest.bias(self.t, self.x, self.k(values, rest), 0 * self.u)
+
+        def part(values: Mapping[str, float]) -> Array:
+            found: Array = rest.bias(self.t, self.x, self.k(values, rest), 0 * self.u)
+            return found[:, self.part]
+
+        return part
 
     def _bare(self) -> ModuleType | None:
         """The code of the problem on which nothing acts."""
@@ -404,30 +418,6 @@ class Balance:
         known = self.values()
         places = [known.get(x[1]) if x[0] == "par" else None for x in getattr(table, "centre", ())]
         return T - np.array(places, float) if places and None not in places else T
-
-
-def cross(a: Array, b: Array) -> Array:
-    """a × b of vectors of space; in the plane the number of it, (…, 1)."""
-    if b.shape[-1] == 3:
-        return np.asarray(np.cross(a, b))
-    return np.asarray(a[..., :1] * b[..., 1:] - a[..., 1:] * b[..., :1])
-
-
-def turning(w: Array, r: Array) -> Array:
-    """ω × r, in the plane of the number ω, (…, 1)."""
-    if r.shape[-1] == 3:
-        return np.asarray(np.cross(w, r))
-    return np.asarray(w * np.stack([-r[..., 1], r[..., 0]], axis=-1))
-
-
-def through(to: Any, vectors: Array) -> Array:
-    """Vectors, (N, d) or (d,), as a matrix takes them, one for all or one for each state."""
-    return np.asarray(np.einsum("...ij,...j->...i", to, vectors))
-
-
-def hats(r: Array) -> Array:
-    """The matrices of r × of vectors in space, (N, 3, 3)."""
-    return np.asarray(np.cross(r[:, None, :], np.eye(3)).transpose(0, 2, 1))
 
 
 def _idle(force: Acting) -> Acting:

@@ -19,16 +19,19 @@ from ..problem.problem import Problem
 from .balance import Balance, Made
 from .faults import Explanation, best, explained
 from .opened import Opened, opened
+from .own_coordinates import own_coordinates
 from .pairs import of_two
+from .products import rows_of, within_blocks
 from .told import NEAR, Hypothesis, told
 from .user_states import (
+    ATTITUDES,
     RATES,
-    WORDS,
     Item,
     Table,
+    beside,
     drawn,
+    kind_of,
     ours,
-    own_angles,
     own_blocks,
     rates,
     read,
@@ -93,7 +96,7 @@ class Comparison:
     def in_the_users(self, difference: Array) -> Array:
         """A difference in our numbers as the smallest one in the user's, (N, size)."""
         items = self.table.items
-        if not any(x.name in WORDS or x.angle for x in items):
+        if not any(x.kind or x.coordinates for x in items):
             places = [self.program.state.index(x.name) for x in items]
             units: Array = np.array([x.unit for x in items])
             return np.asarray(difference[:, places] * units)
@@ -111,8 +114,11 @@ def comparison(
     program, code = make(problem, False)
     default = _default(problem, program, path, function)
     blocks = _blocks(problem, program, code)
-    angles = own_angles(problem.group.in_user_basis, program.state) if problem.group else {}
-    table = read(as_, default, blocks, problem.parameters, angles, program.by_block)
+    coordinates = {}
+    if problem.group:
+        velocity = program.state[_moving(problem, program)]
+        coordinates = own_coordinates(problem.group.in_user_basis, program.state, velocity)
+    table = read(as_, default, blocks, problem.parameters, coordinates, program.by_block)
     if function and len(table.calls) == 1:
         table = replace(table, calls=(replace(table.calls[0], name=function),))
     known = {name: x.default for name, x in problem.parameters.items()} | dict(table.parameters)
@@ -178,22 +184,29 @@ def _default(problem: Problem, program: Program, path: Path, function: str) -> T
 
 
 def _blocks(problem: Problem, program: Program, code: ModuleType) -> dict[str, tuple[str, ...]]:
-    """The blocks of a state on SO(3) and SE(3) whose velocity is in the body, in the usual basis;
-    none of others."""
-    if program.group not in ("SO(3)", "SE(3)") or problem.advected is not None:
-        return {}
+    """The blocks of a state on SO(3) and SE(3), or of such factors of a product, whose velocity is
+    in the body, in the usual basis; none of others."""
+    group, found, first = problem.group, dict[str, tuple[str, ...]](), 0
+    if group is None or problem.advected is not None or program.dimension < group.dimension:
+        return found
     if problem.lagrangian and problem.lagrangian.trivialisation != "left":
-        return {}
-    own: dict[str, tuple[str, ...]] = own_blocks(
-        program.state, program.state[_moving(problem, program)]
-    )
-    usual = np.zeros((program.dimension, *code.BASIS.shape[1:]))
-    for i in range(3):
-        j, k = (i + 1) % 3, (i + 2) % 3
-        usual[i, k, j], usual[i, j, k] = 1, -1
-        if program.dimension == 6:
-            usual[3 + i, i, 3] = 1
-    return own if (usual == code.BASIS).all() else {}
+        return found
+    velocity = program.state[_moving(problem, program)]
+    for k, (offset, factor) in enumerate(group.places, 1):
+        own = slice(first, first + factor.dimension)
+        first = own.stop
+        if factor.name not in ("SO(3)", "SE(3)"):
+            continue
+        usual = np.zeros((factor.dimension, *code.BASIS.shape[1:]))
+        for i in range(3):
+            j, m = ((i + x) % 3 + offset for x in (1, 2))
+            usual[i, m, j], usual[i, j, m] = 1, -1
+            if factor.affine:
+                usual[3 + i, offset + i, offset + 3] = 1
+        if (usual == code.BASIS[own]).all():
+            mark = str(k) if len(group.places) > 1 else ""
+            found |= own_blocks(program.state, velocity[own], mark)
+    return found
 
 
 def _rates_of(c: Comparison, path: Path) -> Array:
@@ -216,7 +229,7 @@ def _rates_of(c: Comparison, path: Path) -> Array:
 
 def _is_rate(c: Comparison, item: Item) -> bool:
     """Is an item of the state a velocity?"""
-    return item.name in RATES or item.name in c.program.state[_moving(c.problem, c.program)]
+    return item.kind in RATES or item.name in c.program.state[_moving(c.problem, c.program)]
 
 
 def reports(c: Comparison, make: Made) -> tuple[bool, Iterator[str]]:
@@ -243,10 +256,11 @@ def _causes(c: Comparison, make: Made, off: Array, known: Array, size: Array) ->
         yield from (f"  it agrees if {x}" for x in others)
         return
     yield from _of_places(c, off, known)
-    words, turning = _of_transport(c, off)
-    if words:
-        yield f"  {words}"
-        c, off = replace(c, dx=c.dx - turning), off - turning
+    for block in c.blocks:
+        words, turning = _of_transport(c, off, block)
+        if words:
+            yield f"  {words}"
+            c, off = replace(c, dx=c.dx - turning), off - turning
     worst = np.abs(off).max(axis=0) / size
     d = c.program.dimension
     if all(worst[place].max() <= AGREES for item, place in c.table.places() if _is_rate(c, item)):
@@ -267,6 +281,7 @@ def _causes(c: Comparison, make: Made, off: Array, known: Array, size: Array) ->
         raise found.stopped
 
 
+@np.errstate(all="ignore")
 def _other_conventions(c: Comparison) -> list[str]:
     """The changes of one convention with which all agrees, in words."""
     found = []
@@ -306,19 +321,17 @@ def _of_places(c: Comparison, off: Array, known: Array) -> list[str]:
     return lines
 
 
-def _of_transport(c: Comparison, off: Array) -> tuple[str, Array]:
-    """A term ω × v in the rate of the velocity, as axes that turn have it, that is one too many or
+def _of_transport(c: Comparison, off: Array, block: str) -> tuple[str, Array]:
+    """A term ω × v in the rate of a velocity, as axes that turn have it, that is one too many or
     along other axes: in words, and what is too much; "" where there is none."""
-    more = np.zeros_like(off)
-    named = c.blocks.get("velocity", ())
-    there = [(x, y) for x, y in c.table.places() if x.name == "velocity" or x.name in named]
+    more, named = np.zeros_like(off), c.blocks[block]
+    there = [(x, y) for x, y in c.table.places() if x.name == block or x.name in named]
     place = [i for _, y in there for i in range(y.start, y.stop)]
-    if len(place) < 3 or "matrix" not in c.blocks:
+    if kind_of(block) != "velocity" or len(place) < 3:
         return "", more
     x, state = c.ours(c.table)(c.given["x"]), c.program.state
-    A, w, v = (
-        x[:, [state.index(y) for y in c.blocks[name]]] for name in ("matrix", "omega", "velocity")
-    )
+    sides = (c.blocks[beside(block, kind)] for kind in ("matrix", "omega", "velocity"))
+    A, w, v = (x[:, [state.index(y) for y in names]] for names in sides)
     A = A.reshape(-1, 3, 3)
     turned = {"the body": (w, v), "space": tuple(np.einsum("nij,nj->ni", A, y) for y in (w, v))}
     in_space = there[0][0].said.get("frame") == "space"
@@ -333,12 +346,12 @@ def _of_transport(c: Comparison, off: Array) -> tuple[str, Array]:
             end = "too many: of a velocity along the axes of space there is none"
             if not in_space:
                 end = "where −ω × v along the axes of the body is meant"
-            return f"the rate of velocity has {called} {end}", more
+            return f"the rate of {block} has {called} {end}", more
     return "", 0 * more
 
 
 def _block_of(item: Item) -> str:
-    return "matrix" if item.name in ("quaternion", "euler") else item.name
+    return beside(item.name, "matrix") if item.kind in ATTITUDES else item.name
 
 
 @np.errstate(all="ignore")
@@ -364,19 +377,14 @@ def _explained(c: Comparison, make: Made, off: Array, d: int) -> Explanation:
         return Explanation()
     if not hasattr(code, "bias"):
         return Explanation()
-    E = np.asarray(code.BASIS)
-    n = E.shape[1] - 1
-    moves = [
-        i for i in range(d) if c.program.group in ("SE(2)", "SE(3)") and not E[i][:n, :n].any()
-    ]
-    turns = [i for i in range(d) if i not in moves]
-    rows = {"moment": turns, "force": moves} if moves and turns else {"moment": turns}
+    E = np.asarray(code.BASIS)[:d]
+    rows = rows_of(c.program.group, E, E.shape[1] - 1)
     b = Balance(code, part, make, parameters, c.given["t"], to(x), c.u, a, rows, moving)
     tried: list[Hypothesis] = []
     found = None
     try:
         terms = list(b.terms())
-        found = explained(b, terms, tried)
+        found = explained(b, terms, tried, lambda: within_blocks(b))
         return found if found.changes and found.telling else of_two(b, terms) or found
     except BaseException as error:  # its time is over, or Ctrl-C
         if isinstance(error, Exception):

@@ -10,10 +10,11 @@ from itertools import chain, combinations, product
 
 import numpy as np
 
-from .balance import Balance, Part, Term, exact, through
+from .balance import Balance, Part, Term, exact
+from .cross_products import through
+from .inertia_operators import of_added_mass, of_blocks
 from .newton_euler import (
     IN_MASS,
-    of_added_mass,
     of_axes,
     of_masses_held,
     of_newton_euler,
@@ -88,9 +89,14 @@ class Explanation:
     stopped: BaseException | None = None
 
 
-def explained(b: Balance, terms: list[Term], tried: list[Hypothesis]) -> Explanation:
-    """What explains the whole difference, the most telling first; else what leaves the least.  What
-    is ``tried`` is added to these."""
+def explained(
+    b: Balance,
+    terms: list[Term],
+    tried: list[Hypothesis],
+    within: Callable[[], Explanation | None] = lambda: None,
+) -> Explanation:
+    """What explains the whole difference, the most telling first; else what does ``within`` factors
+    of a product; else what leaves the least.  What is ``tried`` is added to these."""
 
     def stage(generated: Iterator[Hypothesis]) -> list[Hypothesis]:
         tried.extend(x for x in generated if np.isfinite(x.left).all())
@@ -98,9 +104,13 @@ def explained(b: Balance, terms: list[Term], tried: list[Hypothesis]) -> Explana
 
     good = stage(hypotheses(b, terms))
     if not good or good[0].rank > 2:
-        good = stage(chain(of_numbers(b, parts_of(b, terms)), of_added_mass(b), of_sizes(b)))
+        good = stage(
+            chain(of_numbers(b, parts_of(b, terms)), of_added_mass(b), of_blocks(b), of_sizes(b))
+        )
     if good:
         return best(b, tried)
+    if apart := within():
+        return apart
     for found in (*(of_several(b, terms, x) for x in views(b)), of_tables(b)):
         if found:
             words = tuple(x for x, _ in found)
@@ -362,6 +372,7 @@ def of_several(b: Balance, terms: list[Term], view: tuple[str, Array]) -> Told:
     size = np.atleast_2d(through(np.abs(to), b.size())).max(axis=0)
     whole = [(x, through(to, x.values)) for x in terms if not x.part]
     found: dict[str, tuple[Term, dict[int, float]]] = {}
+    stands: dict[str, int] = {}
     said: Told = []
     for row in range(here.shape[1]):
         columns = [(x, y[:, row]) for x, y in whole if np.abs(y[:, row]).max() > 1e-12 * size[row]]
@@ -371,6 +382,8 @@ def of_several(b: Balance, terms: list[Term], view: tuple[str, Array]) -> Told:
                 return []
             continue
         names = [f"{x.name(kind)}{about}" for x, _ in columns]
+        for name in names:
+            stands[name] = stands.get(name, 0) + 1
         design = np.stack([y for _, y in columns], axis=1)
         scale = np.abs(design).max(axis=0)
         factors, _, rank, _ = np.linalg.lstsq(design / scale, here[:, row], rcond=1e-9)
@@ -385,7 +398,7 @@ def of_several(b: Balance, terms: list[Term], view: tuple[str, Array]) -> Told:
                 found.setdefault(name, (x, {}))[1][row] = 1 + float(factor)
     for name, (term, rows) in found.items():
         values, related = [*rows.values()], partial(stands_in, b, term=term)
-        if max(values) - min(values) <= NEAR:
+        if max(values) - min(values) <= NEAR and len(values) == stands[name]:
             said.append(changed(name, values[0], b.named, related))
             continue
         each = (changed(f"{name} in row {i + 1}", x, b.named, related) for i, x in rows.items())

@@ -1,8 +1,6 @@
 """What may be otherwise in the equations of Newton and Euler about the centre of mass: the mass,
 that centre and the tensor of inertia in each place, masses that are not what is left; in a
-force with its moment the axes of its numbers, its arm, the velocity that it is made of; and in
-the added mass of a body in water, the operator of inertia less that of a rigid body: left out,
-or taken otherwise, in the mass matrix, in the Coriolis terms or in both.
+force with its moment the axes of its numbers, its arm, the velocity that it is made of.
 """
 
 from __future__ import annotations
@@ -19,9 +17,10 @@ from ..language.show import show
 from ..language.tree import Tree, nodes, replaced, sized
 from ..problem.fields import velocity_at_place
 from ..schema.force_kinds import StatedForce
-from .balance import EXACT, Balance, Term, cross, hats, through, turning
+from .balance import EXACT, Balance, Term
+from .cross_products import cross, hats, through, turning
 from .opened import called
-from .told import FACTORS, SIMPLE, Hypothesis
+from .told import SIMPLE, Hypothesis
 from .users_code import Array
 
 IN_MASS = " in the mass matrix alone"
@@ -156,15 +155,27 @@ View = tuple[str, Array]
 
 def of_wrenches(b: Balance, terms: list[Term]) -> Iterator[Hypothesis]:
     """All of these, of the terms by themselves and of all inputs together."""
-    yield from of_attitude(b, terms)
-    yield from of_arms(b, terms)
+    for term in terms:
+        yield from of_wrench(b, term)
+    yield from of_all_wrenches(b, terms)
+
+
+def of_wrench(b: Balance, term: Term) -> Iterator[Hypothesis]:
+    """Those of one term: but for what it leaves, they are made of the term, of the centre of mass
+    and of the states alone."""
+    yield from of_attitude(b, [term])
+    yield from of_arms(b, [term])
     if b.is_frame:
-        inputs = [x for x in terms if x.is_input]
-        for term in terms:
-            yield from of_frames(b, [term], term.name)
-            yield from of_speeds(b, term)
-        for both in b.together():
-            yield from of_frames(b, inputs, both.name)
+        yield from of_frames(b, [term], term.name)
+        yield from of_speeds(b, term)
+
+
+def of_all_wrenches(b: Balance, terms: list[Term]) -> Iterator[Hypothesis]:
+    """Those of all inputs, or of all that acts at a place, together."""
+    yield from of_arms(b, terms, together=True)
+    inputs = [x for x in terms if x.is_input]
+    for both in b.together() if inputs and b.is_frame else ():
+        yield from of_frames(b, inputs, both.name)
 
 
 def of_axes(b: Balance, term: Term, view: View) -> Iterator[Hypothesis]:
@@ -375,20 +386,21 @@ BY_AXES = {
 }
 
 
-def of_arms(b: Balance, terms: list[Term]) -> Iterator[Hypothesis]:
-    """An arm, or all arms, are taken from the centre of mass; or moments are about it."""
+def of_arms(b: Balance, terms: list[Term], together: bool = False) -> Iterator[Hypothesis]:
+    """An arm, or all arms ``together``, are taken from the centre of mass; or moments are about
+    it."""
     r = b.centre()
     if r is None or not r.any():
         return
     placed = [x for x in terms if x.arm is not None and x.at]
-    listed = [(f"the lever arm of {x.name('')} is", [x]) for x in placed]
+    listed = [(f"the lever arm of {x.name('')} is", [x]) for x in placed if not together]
     of_places = [x for x in placed if x.arm is not None and x.arm.ndim == 1]
     of_inputs = [x for x in of_places if x.is_input]
     for words, several in (
         ("all lever arms", of_places),
         ("the lever arms of all inputs", of_inputs),
     ):
-        listed += [(f"{words} are", several)] * (len(several) > 1)
+        listed += [(f"{words} are", several)] * (together and len(several) > 1)
     for (words, own), (sign, told) in product(listed, TAKEN.items()):
         moved = sum((_at_arm(b, x, sign * r) - x.values for x in own), 0 * b.a)
         yield Hypothesis(f"{words} {told}", 0, b.unexplained - moved)
@@ -412,61 +424,3 @@ def _at_arm(b: Balance, term: Term, further: Array) -> Array:
     w, v = b.velocities()
     own, n = term.at(b.with_velocities(w, v + turning(w, further))), term.arm.shape[-1]
     return np.hstack([own[:, :-n] + cross(further, own[:, -n:]), own[:, -n:]])
-
-
-def of_added_mass(b: Balance) -> Iterator[Hypothesis]:
-    """Of an operator that is the same in every state: what a factor s of the added mass adds is
-    (s − 1) (P(M) − P(R)), P linear in the operator; the R of a rigid body is fitted."""
-    problem = b.opened.problem
-    if problem.lagrangian is None or not b.is_frame:
-        return
-    operators = b.code.mass_matrix(b.t, b.x, b.k(b.values()))
-    M = operators[0]
-    if np.abs(operators - M).max() > 1e-12 * np.abs(M).max():
-        return
-    rigid = rigid_bodies(len(b.rows["force"]))
-    for words, part in parts(b).items():
-        columns = np.stack([part(R).ravel() for R in rigid], axis=1)
-        scale = np.abs(columns).max(axis=0)
-        known, used = part(M), scale > 0
-        for s in FACTORS:
-            wanted = known - b.unexplained / (1 - s)
-            numbers = np.zeros(len(rigid))
-            fit = np.linalg.lstsq(columns[:, used] / scale[used], wanted.ravel(), rcond=1e-9)
-            numbers[used] = fit[0] / scale[used]
-            left = b.unexplained - (1 - s) * (known - part(np.tensordot(numbers, rigid, 1)))
-            dry = f" of mass {numbers[0]:.6g}" if used[0] else ""
-            if not used[0] or numbers[0] > 1e-9 * np.abs(M).max():
-                rest = f"the rest is that of a rigid body{dry}"
-                yield Hypothesis(f"{words} {SIMPLE[s]}: {rest}", 2, left)
-
-
-def rigid_bodies(n: int) -> Array:
-    """The operators of a mass, of each first moment, and of each entry of the tensor."""
-    turns = 3 if n == 3 else 1
-    found = [np.diag([0.0] * turns + [1.0] * n)]
-    for c in np.eye(n):
-        # ω × c is D ω, and v · D ω is in the energy
-        D = np.stack([turning(w, c) for w in np.eye(turns)], axis=1)
-        found.append(np.block([[np.zeros((turns, turns)), D.T], [D, np.zeros((n, n))]]))
-    for i in range(turns):
-        for j in range(i, turns):
-            R = np.zeros((turns + n, turns + n))
-            R[i, j] = R[j, i] = 1
-            found.append(R)
-    return np.array(found)
-
-
-def parts(b: Balance) -> dict[str, Callable[[Array], Array]]:
-    """What an operator makes in M a + b, in words."""
-    ζ = np.hstack(b.velocities())
-
-    def coriolis(K: Array) -> Array:
-        return np.asarray(sum(b.coadjoint(ζ @ K).values()))
-
-    return {
-        "C_A(ν)ν, of the added mass,": coriolis,
-        "v × p of the added mass": lambda K: b.coadjoint(ζ @ K)["v × p"],
-        "the added mass in the mass matrix": lambda K: b.a @ K,
-        "the added mass": lambda K: b.a @ K + coriolis(K),
-    }

@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 import numpy as np
 
-from .balance import Balance, Term, exact, through
+from .balance import Balance, Term, exact
+from .cross_products import through
 from .faults import NEARER, Explanation, named_vector, of_exchanges, of_terms, views
-from .newton_euler import of_axes, of_wrenches
+from .newton_euler import of_all_wrenches, of_axes, of_wrench
 from .told import ABOUT, FACTORS, NEAR, Changed, changed, possible, told
+from .users_code import Array
 
 
 def of_two(b: Balance, terms: list[Term]) -> Explanation | None:
@@ -32,6 +34,7 @@ def pairs(b: Balance, terms: list[Term]) -> list[tuple[str, str]]:
         if is_all and words != one.words:
             found.setdefault(frozenset((one.words, words)), (one.rank + rank, (one.words, words)))
 
+    known: Apart = {}
     for i, one in enumerate(numbers):
         for other in numbers[:i]:
             # what each changes by itself is about what both do: most need no more
@@ -41,9 +44,10 @@ def pairs(b: Balance, terms: list[Term]) -> list[tuple[str, str]]:
             left = possible(_both(b, one.balance, other.balance))
             noted(one, other.words, other.rank, left is not None and exact(left, size))
         own = [*one.balance.terms()]
-        for x in of_terms(one.balance, own) if Reach(one.balance, own).has(one.balance) else ():
+        reached = Reach(one.balance, own, known).has(one.balance)
+        for x in of_terms(one.balance, own) if reached else ():
             noted(one, x.words, x.rank, exact(x.left, size))
-    reach = Reach(b, terms)
+    reach = Reach(b, terms, known)
     for one in of_wholes(b, terms):
         for x in of_terms(one.balance, terms) if reach.has(one.balance) else ():
             noted(one, x.words, x.rank, exact(x.left, size))
@@ -57,22 +61,49 @@ def _plain(words: tuple[str, str]) -> set[str]:
     return {x.replace(ABOUT, "") for x in words}
 
 
+DIGITS = 9
+"""So many digits say whether the numbers of a term are those of another."""
+Apart = dict[tuple[bytes, ...], list[Array]]
+"""By the numbers of a term, of its arm and of the centre of mass: what turns it otherwise."""
+
+
 class Reach:
     """What one change of a term can explain, in all at once: ``along``, multiples of the terms in
-    some rows, each of length 1; ``apart``, terms turned otherwise less what they are."""
+    some rows, each of length 1; ``apart``, terms turned otherwise less what they are.  Most numbers
+    of a body stand in few terms: what is ``known`` of the others is that of one before."""
 
-    def __init__(self, b: Balance, terms: list[Term]):
+    def __init__(self, b: Balance, terms: list[Term], known: Apart):
         values, d = np.stack([x.values for x in terms]), b.a.shape[1]
         rows = [[*range(d)], *b.rows.values(), *([i] for i in range(d))]
-        along, turned = [], [*of_wrenches(b, terms)]
-        for view in views(b):
+        along, both, seen_from = [], [*b.together()], views(b)
+        for view in seen_from:
             to = view[1]
             masks = [np.isin(range(d), own) for own in rows]
             seen, back = through(to, values), np.linalg.inv(to)
             along += [through(back, seen * mask) for mask in masks]
-            for term in (*terms, *b.together()):
-                turned += of_axes(b, term, view)
-        self.apart = np.array([(b.unexplained - x.left).ravel() for x in turned])
+        r = b.centre()
+
+        def key(several: Sequence[Term]) -> tuple[bytes, ...]:
+            # a term is a difference: what else is in it leaves its rounding
+            arrays = (y for x in several for y in (x.values, x.arm))
+            every = ((y, np.abs(y).max(initial=1e-9)) for y in (r, *arrays) if y is not None)
+            return tuple(
+                np.append(np.round(y / size, DIGITS) + 0.0, float(f"{size:.{DIGITS}g}")).tobytes()
+                for y, size in every
+            )
+
+        turned: list[Array] = []
+        for i, term in enumerate((*terms, *both)):
+            if (own := key([term])) not in known:
+                found = [x for view in seen_from for x in of_axes(b, term, view)]
+                found += of_wrench(b, term) if i < len(terms) else ()
+                known[own] = [(b.unexplained - x.left).ravel() for x in found]
+            turned += known[own]
+        placed = [x for x in terms if x.is_input or x.arm is not None]
+        if (own := key(placed)) not in known:
+            found = [*of_all_wrenches(b, terms)]
+            known[own] = [(b.unexplained - x.left).ravel() for x in found]
+        self.apart = np.array(turned + known[own])
         every = np.concatenate(along).reshape(-1, values[0].size)
         lengths = np.linalg.norm(every, axis=1)
         self.along = every[lengths > 0] / lengths[lengths > 0, None]

@@ -12,14 +12,13 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import product
 from pathlib import Path
+from string import digits
 from typing import Any
 
 import numpy as np
 
-from ..algebra.factor_charts import factor_charts
-from ..algebra.groups import Group
 from ..language.reserved import did_you_mean, near_name
-from ..problem.fields import is_entry, state_names
+from .own_coordinates import Coordinates
 from .users_code import Array, Call, CompareError
 
 SEQUENCES = tuple(
@@ -39,60 +38,38 @@ WORDS: dict[str, dict[str, tuple[str, ...]]] = {
     "velocity": {"frame": ("body", "space")},
 }
 """A block of a state → what may be said of it; the first is meant where nothing is."""
+"""Those of a product have the number of the factor at their end, as ``omega2``."""
 SIZES = {"quaternion": 4, "matrix": 9}
 UNITS = {"degrees": math.degrees(1), "turns": 1 / math.tau, "a minute": 60.0}
 UNITS |= {"milli": 1000.0, "kilo": 0.001}
 """A unit in words → how many of it one of ours is."""
 RATES = ("omega", "velocity")
+ATTITUDES = ("quaternion", "euler", "matrix")
 AXES = {"X": 0, "Y": 1, "Z": 2}
 TINY = 1e-200
 """The size of an imaginary part of which no square is left."""
 
 
-@dataclass(frozen=True)
-class Angle:
-    """The entries ``names`` of a factor that one angle x turns: Σ ``parts`` · (1, x, cos wx,
-    sin wx), the parts (4, names)."""
-
-    names: tuple[str, ...]
-    parts: Array
-    w: float
-
-    def entries(self, x: Any) -> dict[str, Any]:
-        """The entries at angles (N,), which may be complex."""
-        numbers = np.stack([np.ones_like(x), x, np.cos(self.w * x), np.sin(self.w * x)], axis=-1)
-        return _named(self.names, numbers @ self.parts)
+def kind_of(name: str) -> str:
+    """Of WORDS what a block of a state is, "" for a name that is none."""
+    found = name.rstrip(digits)
+    return found if found in WORDS else ""
 
 
-def own_angles(group: Group, state: Sequence[str]) -> dict[str, Angle]:
-    """The angles of a group by their names in the code of ``--attitude angle``, of those factors
-    that one angle tells, beside T."""
-    entries = {x: t for x, t in state_names(group).items() if x in state and isinstance(t, tuple)}
-    places = {(t[2] - 1, t[3] - 1): x for x, t in entries.items() if is_entry(t)}
-    found = {}
-    for chart in factor_charts(group, "angle").values():
-        rows = range(chart.offset, chart.offset + chart.size)
-        block = chart.blocks[0]
-        if not block.turn or block.rows != tuple(rows):
-            continue
-        inside = [(i, j) for i in rows for j in rows if (i, j) in places]
-        parts = [
-            [float(P[i - rows[0]][j - rows[0]]) for i, j in inside] for P in block.parts_of_turn
-        ]
-        own = tuple(places[x] for x in inside)
-        found[block.names[0]] = Angle(own, np.array(parts), float(block.turn))
-    return found
+def beside(name: str, kind: str) -> str:
+    """The block of a ``kind`` of the same factor."""
+    return kind + name.removeprefix(kind_of(name))
 
 
 @dataclass(frozen=True)
 class Item:
     """A name or a block of a state, ``said`` by one of each of WORDS; a number of the user's is
-    ours times ``unit``; of an ``angle``, what it turns; ``called``: as the user has it."""
+    ours times ``unit``; of one of several ``coordinates``, all; ``called``: as the user has it."""
 
     name: str
     said: Mapping[str, str] = field(default_factory=dict)
     unit: float = 1.0
-    angle: Angle | None = None
+    coordinates: Coordinates | None = None
     called: str = ""
 
     def __str__(self) -> str:
@@ -101,15 +78,20 @@ class Item:
     @property
     def size(self) -> int:
         """How many numbers it has."""
-        return SIZES.get(self.name, 3) if self.name in WORDS else 1
+        return SIZES.get(self.kind, 3) if self.kind else 1
+
+    @property
+    def kind(self) -> str:
+        """Of WORDS what it is, "" for a number."""
+        return kind_of(self.name)
 
     def others(self) -> Iterator[tuple[str, Item]]:
         """The same by other words, one of them changed, or in another unit: in words."""
-        for key, choices in WORDS.get(self.name, {}).items():
+        for key, choices in WORDS.get(self.kind, {}).items():
             for x in choices:
                 if x != self.said[key]:
                     yield f"{key} {x!r}", replace(self, said={**self.said, key: x})
-        for words, unit in UNITS.items() if self.name not in SIZES else ():
+        for words, unit in UNITS.items() if self.kind not in SIZES else ():
             yield f"the unit {unit:.17g}, {words}", replace(self, unit=unit * self.unit)
 
 
@@ -147,24 +129,37 @@ class Table:
             for words, other in item.others():
                 items = (*self.items[:i], other, *self.items[i + 1 :])
                 yield f"{item} has {words}", replace(self, items=items)
-        turning = [x for x in self.items if x.name in ("euler", "omega")]
-        for x in self.items:
-            if x.angle:
-                rate = x.name.replace("theta", "zeta")
-                turning += [x, *(y for y in self.items if y.name == rate)]
-        for word in ("degrees", "turns") if len(turning) > 1 else ():
+        every = self._turning()
+        apart = [x for x in every.values() if len(x) > 1]
+        whole = [x for own in every.values() for x in own]
+        for turning, word in product([*apart, *[whole] * (len(every) > 1)], ("degrees", "turns")):
             unit = UNITS[word]
             items = tuple(replace(x, unit=unit * x.unit) if x in turning else x for x in self.items)
             listed = " and ".join(map(str, turning))
             yield f"{listed} have the unit {unit:.17g}, {word}", replace(self, items=items)
 
+    def _turning(self) -> dict[str, list[Item]]:
+        """Angles and their rates, by what they turn."""
+        found: dict[str, list[Item]] = {}
+        for x in self.items:
+            if x.kind in ("euler", "omega"):
+                found.setdefault(beside(x.name, "matrix"), []).append(x)
+            elif (own := x.coordinates) and own.block.turn:
+                rates = (y for y in self.items if y.name in own.rates)
+                found[x.name] = [x, *rates]
+        return found
 
-def own_blocks(state: Sequence[str], rates: Sequence[str]) -> dict[str, tuple[str, ...]]:
-    """The blocks of our own state on SO(3) or SE(3) → their names; ``rates``: those of ζ, w."""
-    A = tuple(x for x in state if x.startswith("A_"))
-    T = tuple(x for x in state if x.startswith("T_"))
-    found = {"matrix": A, "position": T, "omega": tuple(rates[:3]), "velocity": tuple(rates[3:])}
-    return {name: x for name, x in found.items() if x}
+
+def own_blocks(
+    state: Sequence[str], velocity: Sequence[str], mark: str = ""
+) -> dict[str, tuple[str, ...]]:
+    """The blocks of our own state on SO(3) or SE(3), or of such a factor by its ``mark`` → their
+    names; ``velocity``: those of ζ, w."""
+    A = tuple(x for x in state if x.startswith(f"A{mark}_"))
+    T = tuple(x for x in state if x.startswith(f"T{mark}_"))
+    kinds = {"matrix": A, "position": T}
+    kinds |= {"omega": tuple(velocity[:3]), "velocity": tuple(velocity[3:])}
+    return {f"{kind}{mark}": x for kind, x in kinds.items() if x}
 
 
 def read(
@@ -172,12 +167,12 @@ def read(
     default: Table,
     blocks: Mapping[str, tuple[str, ...]],
     parameters: Any,
-    angles: Mapping[str, Angle],
+    coordinates: Mapping[str, Coordinates],
     by_block: Mapping[str, str],
 ) -> Table:
-    """The table of a TOML file, or what is meant without one; names that follow one another as in a
-    block of our own are that block.  ``angles`` stand for entries, names ``by_block`` for those of
-    the state.  ``CompareError`` says which key is wrong."""
+    """The table of a TOML file, or what is meant without one; names that follow one another as in
+    a block of our own are that block.  ``coordinates`` stand for entries, names ``by_block`` for
+    those of the state.  ``CompareError`` says which key is wrong."""
     if path is None:
         return replace(default, items=_in_blocks(default.items, blocks))
     try:
@@ -186,26 +181,27 @@ def read(
         raise CompareError(f"{path}: {error.strerror}") from None
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
         raise CompareError(f"{path}: {error}") from None
-    known = ("call", "state", "inputs", "units", "parameters", *WORDS)
+    words = _words(blocks)
+    known = ("call", "state", "inputs", "units", "parameters", *(words or WORDS))
     _require_known(told, known, str(path))
     state = tuple(x.name for x in default.items)
     apart = [x for x in state if all(x not in own for own in blocks.values())]
     listed = _texts(told.get("state", [*blocks, *apart]), f"{path}: state")
-    named = (*angles, *state, *by_block)
-    if not blocks and any(x in WORDS for x in listed):
+    named = (*coordinates, *state, *by_block)
+    if not blocks and any(map(kind_of, listed)):
         told_of = "blocks are of SO(3) and SE(3); give names"
         raise CompareError(f"{path}: state: {told_of}: {', '.join(named)}")
-    _require_known(listed, (*named, *(WORDS if blocks else ())), f"{path}: state")
-    _require_known([x for x in told if x in WORDS], listed, f"{path}: tables of the state")
+    _require_known(listed, (*named, *words), f"{path}: state")
+    _require_known([*filter(kind_of, told)], listed, f"{path}: tables of the state")
     units = _numbers(told.get("units", {}), f"{path}: units")
-    _require_known(units, [x for x in listed if x not in SIZES], f"{path}: units")
+    _require_known(units, [x for x in listed if kind_of(x) not in SIZES], f"{path}: units")
     if not all(units.values()):
         raise CompareError(f"{path}: units: a unit is not 0")
     items = []
     for name in listed:
-        words = _said(told.get(name, {}), name, f"{path}: [{name}]") if name in WORDS else {}
+        said = _said(told.get(name, {}), name, f"{path}: [{name}]") if name in words else {}
         own = by_block.get(name, name)
-        items.append(Item(own, words, units.get(name, 1.0), angles.get(name), name))
+        items.append(Item(own, said, units.get(name, 1.0), coordinates.get(name), name))
     inputs = _texts(told.get("inputs", [*default.inputs]), f"{path}: inputs")
     if sorted(inputs) != sorted(default.inputs):
         raise CompareError(f"{path}: inputs: expected {', '.join(default.inputs)} in an order")
@@ -225,14 +221,22 @@ def read(
     return found
 
 
+def _words(blocks: Mapping[str, tuple[str, ...]]) -> list[str]:
+    """The blocks by which a state may be said where our own are these."""
+    attitudes = ("quaternion", "euler")
+    turned = [beside(x, kind) for x in blocks if kind_of(x) == "matrix" for kind in attitudes]
+    return [*turned, *blocks]
+
+
 def _said(table: Any, name: str, where: str) -> dict[str, str]:
     """What a table says of a block, and what is meant where it says nothing."""
     if not isinstance(table, dict):
         raise CompareError(f"{where}: expected a table")
-    _require_known(table, WORDS[name], where)
-    words = {key: table.get(key, x[0]) for key, x in WORDS[name].items()}
+    known = WORDS[kind_of(name)]
+    _require_known(table, known, where)
+    words = {key: table.get(key, x[0]) for key, x in known.items()}
     for key, word in words.items():
-        _require_known([word], WORDS[name][key], f"{where}: {key}")
+        _require_known([word], known[key], f"{where}: {key}")
     return words
 
 
@@ -243,7 +247,7 @@ def _in_blocks(items: tuple[Item, ...], blocks: Mapping[str, tuple[str, ...]]) -
         for name, own in blocks.items():
             first = items[: len(own)]
             if tuple(x.name for x in first) == own and len({x.unit for x in first}) == 1:
-                said = {key: words[0] for key, words in WORDS[name].items()}
+                said = {key: words[0] for key, words in WORDS[kind_of(name)].items()}
                 found.append(Item(name, said, first[0].unit))
                 items = items[len(own) :]
                 break
@@ -257,10 +261,11 @@ def _require_whole(
     table: Table, state: Sequence[str], blocks: Mapping[str, tuple[str, ...]], where: str
 ) -> None:
     """``CompareError`` where the items do not say every number of our state once."""
-    turned = {**blocks, **dict.fromkeys(("quaternion", "euler"), blocks.get("matrix", ()))}
-    turned |= {x.name: x.angle.names for x in table.items if x.angle}
+    turned = {x: blocks.get(x) or blocks[beside(x, "matrix")] for x in _words(blocks)}
+    used = {x.coordinates.names: x.coordinates for x in table.items if x.coordinates}
     given = [y for x in table.items for y in turned.get(x.name, (x.name,))]
-    for name in state:
+    given += [y for x in used.values() for y in x.covered]
+    for name in (*state, *(y for names in used for y in names)):
         if given.count(name) != 1:
             how = "says twice" if name in given else "does not say"
             raise CompareError(f"{where}: the state {how} {name}")
@@ -293,29 +298,30 @@ def _numbers(given: Any, where: str) -> dict[str, float]:
 
 def ours(table: Table, x: Any, state: Sequence[str], blocks: Mapping[str, Any]) -> Any:
     """Our states (N, len(state)) of a user's (N, size), which may be complex."""
+    given = {item.name: x[:, place] / item.unit for item, place in table.places()}
     found: dict[str, Any] = {}
-    given: dict[str, Any] = {}
-    for item, place in table.places():
-        given[item.name] = x[:, place] / item.unit
-        if item.angle:
-            found |= item.angle.entries(given[item.name][:, 0])
-        elif item.name not in WORDS:
-            found[item.name] = given[item.name][:, 0]
-    said = {item.name: item.said for item in table.items}
-    for name in ("quaternion", "euler", "matrix"):
-        if name in given:
-            A = ROTATIONS[name](given[name], said[name])
-            A = A if said[name]["sense"] == SENSES[0] else np.swapaxes(A, 1, 2)
-            found |= _named(blocks["matrix"], A.reshape(-1, 9))
-    if "position" in given:
-        found |= _named(blocks["position"], given["position"])
-    for name in RATES:
-        if name in given:
-            vector = given[name]
-            if said[name]["frame"] == "space":
-                A = np.stack([found[y] for y in blocks["matrix"]], axis=-1).reshape(-1, 3, 3)
+    for item in table.items:
+        name, kind, numbers = item.name, item.kind, given[item.name]
+        if item.coordinates:
+            if name == item.coordinates.names[0]:
+                own = [given[y][:, 0] for y in item.coordinates.names]
+                found |= item.coordinates.at(np.stack(own, axis=-1))
+        elif not kind:
+            found[name] = numbers[:, 0]
+        elif kind in ATTITUDES:
+            A = ROTATIONS[kind](numbers, item.said)
+            A = A if item.said["sense"] == SENSES[0] else np.swapaxes(A, 1, 2)
+            found |= _named(blocks[beside(name, "matrix")], A.reshape(-1, 9))
+        elif kind == "position":
+            found |= _named(blocks[name], numbers)
+    for item in table.items:
+        if item.kind in RATES:
+            vector = given[item.name]
+            if item.said["frame"] == "space":
+                entries = blocks[beside(item.name, "matrix")]
+                A = np.stack([found[y] for y in entries], axis=-1).reshape(-1, 3, 3)
                 vector = np.einsum("nji,nj->ni", A, vector)
-            found |= _named(blocks[name], vector)
+            found |= _named(blocks[item.name], vector)
     return np.stack([found[name] for name in state], axis=-1)
 
 
@@ -380,17 +386,17 @@ def drawn(
     parts = []
     for item in table.items:
         n = len(own)
-        if item.name == "quaternion":
+        if item.kind == "quaternion":
             part = random.normal(size=(n, 4))
             part /= np.linalg.norm(part, axis=1)[:, None]
-        elif item.name == "euler":
+        elif item.kind == "euler":
             part = random.uniform(0.2, 1.2, size=(n, 3))
-        elif item.name == "matrix":
-            part = np.stack([columns[x] for x in blocks["matrix"]], axis=-1)
-        elif item.name in WORDS or item.angle:
+        elif item.kind == "matrix":
+            part = np.stack([columns[x] for x in blocks[item.name]], axis=-1)
+        elif item.kind or item.coordinates:
             part = random.normal(size=(n, item.size))
         else:
             part = columns[item.name][:, None]
-        scaled = item.unit if item.name not in ("quaternion", "matrix") else 1.0
+        scaled = item.unit if item.kind not in ("quaternion", "matrix") else 1.0
         parts.append(part * scaled)
     return np.concatenate(parts, axis=1)

@@ -44,9 +44,10 @@ of the state changes by more than about TURN of its size."""
 TURNS = 10
 """How many turns are followed, about, where no time is given."""
 
-NEGLIGIBLE, INSTANTS, BEFORE = 1e-9, 257, 0.999
+NEGLIGIBLE, INSTANTS, SEEN, BEFORE = 1e-9, 257, 65, 0.999
 """A mass of a point below 0 by so much of its first size is 0 but for rounding; the instants of a
-motion at which masses are looked at; how near to the end of a mass an event is waited for."""
+motion at which masses are looked at, and at which the metric of all is; how near to the end of a
+mass an event is waited for."""
 
 CHUNKS = 200
 """The parts of a run between which it can be stopped and its progress is shown."""
@@ -167,8 +168,9 @@ def beginning(
 def require_mass(
     code: Emitted, problem: Problem, begin: Start, duration: float, *, ends: bool = True
 ) -> float:
-    """The time at which a mass that flows is used up, within a motion or never; ``MotionError``
-    says it, unless an event may end the motion before (``ends``)."""
+    """The time at which a mass that flows is used up, or the metric of what is left no longer
+    positive, within a motion or never; ``MotionError`` says it, unless an event may end the motion
+    before (``ends``)."""
     if not problem.flows:
         return math.inf
     assert isinstance(problem.body, PointBody | GivenBody)
@@ -176,10 +178,15 @@ def require_mass(
     whole = [x.moments().m for x in by_block(problem.body).values()]
     found += [(_used_up(x, begin, duration, whole=True), "") for x in whole]
     when, mass = min(found)
+    told = f"the mass {mass} of a point" if mass else "the mass of the body"
+    told += " is used up"
+    # where a mass is used up the metric may be singular, which says less
+    until = min(duration, BEFORE * when)
+    if (singular := _without_inertia(problem, begin, until)) <= until:
+        when, told = singular, "the mass matrix is singular or not positive"
     if when <= duration and not (ends and any(x.terminal for x in code.events)):
-        told = f"the mass {mass} of a point" if mass else "the mass of the body"
         raise MotionError(
-            f"{code.name}: {told} is used up at t = {when:.6g}, and the motion is to go on to "
+            f"{code.name}: {told} at t = {when:.6g}, and the motion is to go on to "
             f"t = {duration:g}: let it end before, by --t or a terminal [[event]]"
         )
     return when
@@ -211,13 +218,32 @@ def _used_up(mass: Tree, begin: Start, duration: float, *, whole: bool = False) 
     if "t" not in nodes(mass) or not {*names(mass)} <= {*begin.parameters}:
         return math.inf
     least = 0.0 if whole else -NEGLIGIBLE * abs(left(0.0))
-    times: list[float] = np.linspace(0.0, duration, INSTANTS).tolist()
-    late = next((b for b in times[1:] if left(b) <= least), None)
+    return _first(lambda t: left(t) <= least, duration)
+
+
+def _without_inertia(problem: Problem, begin: Start, duration: float) -> float:
+    """The first time at which the metric of moments that are functions of the time is not positive;
+    infinite for none, and where masses of the state are in it."""
+    body, known = problem.body, {**defaults(problem.parameters), **begin.parameters}
+    trees = body.moments().trees() if body is not None else ()
+    used = {x for y in trees for x in names(y)}
+    if body is None or not any("t" in nodes(x) for x in trees) or {*problem.stored} & used:
+        return math.inf
+    return _first(
+        lambda t: not metric_is_positive(problem.own_group, body, known, t), duration, SEEN
+    )
+
+
+def _first(fails: Callable[[float], bool], duration: float, instants: int = INSTANTS) -> float:
+    """The first time after 0, to rounding, at which something fails that then fails at one of some
+    instants; infinite for none."""
+    times: list[float] = np.linspace(0.0, duration, instants).tolist()
+    late = next((b for b in times[1:] if fails(b)), None)
     if late is None:
         return math.inf
     early = late - times[1]
     while early < (middle := (early + late) / 2) < late:
-        early, late = (middle, late) if left(middle) > least else (early, middle)
+        early, late = (early, middle) if fails(middle) else (middle, late)
     return late
 
 

@@ -40,7 +40,13 @@ from ..schema.force_kinds import (
     TorqueInput,
 )
 from ..schema.kind import GROUP, Parameter, StatedGroup
-from ..schema.motion_kinds import OUTPUTS, ExpressionOutput, Output, PowerOutput
+from ..schema.motion_kinds import (
+    OUTPUTS,
+    ExpressionOutput,
+    Output,
+    PowerOutput,
+    fault_of_gravity,
+)
 from ..schema.potential_kinds import Potential, kinds
 from ..schema.table import ACTIONS, Slot, Table
 from .fields import angular_velocity, tables, velocity_at_place
@@ -207,6 +213,8 @@ def outputs(
     for where, x in tabled.items():
         if ("y" in x) == (x.get("kind", kind) != kind) or ("kind" not in x and "y" not in x):
             raise ProblemError(f"{where}: give either a 'kind', or expressions 'y'")
+        if not reader.pointless and (wrong := fault_of_gravity(x, pointless=False)):
+            raise ProblemError(f"{where}, {wrong}")
     found = tuple(
         reader.one_of(OUTPUTS, {"kind": kind, **x} if "y" in x else x, where)
         for where, x in tabled.items()

@@ -78,12 +78,14 @@ def _metric(group: Group, moments: Matrix) -> Matrix:
     return tuple(tuple(_inner(image, f) for f in group.basis) for image in images)
 
 
-def metric_is_positive(group: Group, body: Body, values: Mapping[str, float]) -> bool:
-    """Is the metric at g = 1 and the time 0 positive, by more than rounding, for some ``values`` of
+def metric_is_positive(
+    group: Group, body: Body, values: Mapping[str, float], t: float = 0.0
+) -> bool:
+    """Is the metric at g = 1 and a time positive, by more than rounding, for some ``values`` of
     the parameters?  Yes, where it has no value."""
     known = {name: Fraction(x) for name, x in values.items()}
     try:
-        metric = _metric(group, _moments(group, body, _Numbers(known)))
+        metric = _metric(group, _moments(group, body, _Numbers(known, Fraction(t))))
     except (ArithmeticError, ValueError):
         return True
     span = range(len(metric))
@@ -121,8 +123,8 @@ def _trees(body: PointBody | GivenBody) -> list[Tree]:
 class _Values:
     """Trees to fractions; each function of each argument, and π, is a random number of its own."""
 
-    def __init__(self, parameters: Mapping[str, Fraction]):
-        self.parameters = parameters
+    def __init__(self, parameters: Mapping[str, Fraction], t: Fraction = Fraction(0)):
+        self.parameters, self.t = parameters, t
         self.negative = False
         self._own: dict[tuple[Fraction | str, ...], Fraction] = {}
         self._random = Random(2)
@@ -134,8 +136,8 @@ class _Values:
         return mass
 
     def of(self, t: Tree) -> Fraction:
-        """The value of a tree, at the time 0."""
-        known = {"π": self._opaque("π"), "t": Fraction(0)}
+        """The value of a tree, at its time."""
+        known = {"π": self._opaque("π"), "t": self.t}
         return Fraction(value(t, known, self.parameters, self._opaque))
 
     def _opaque(self, *function: Fraction | str) -> Fraction:

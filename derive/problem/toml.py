@@ -18,7 +18,7 @@ from ..language.limits import BITS, COMMON_BITS, KEY_PARTS, LEAVES, PARAMETERS, 
 from ..language.tree import Tree, nodes
 from ..schema.body_kinds import Body, GivenBody, MomentBody
 from ..schema.kind import SECTIONS, Advected, Fluid, Parameter
-from ..schema.motion_kinds import OF_MASSES, OUTPUTS, ExpressionOutput
+from ..schema.motion_kinds import OF_MASSES, OUTPUTS, ExpressionOutput, fault_of_gravity
 from ..schema.table import ATTACHED, Table
 from . import inertia
 from .bodies import as_forces, body, forces, group_of, negative_stiffness_of, outputs, require_known
@@ -212,6 +212,20 @@ def _fluid(data: Mapping[str, Any], reader: FileReader) -> Problem:
     return Problem(name, None, title=reader.title_of(data, name), fluid=fluid)
 
 
+def _require_readable(data: Mapping[str, Any], where: str, on_algebra: bool) -> None:
+    """``ProblemError`` for an output of what a problem without points has not."""
+    others = [x for x in OUTPUTS if x not in (*OF_MASSES, ExpressionOutput.kind)]
+    for k, x in enumerate(tables(data, "output"), 1):
+        placed = "y" not in x or {*ATTACHED} & {*x}
+        if placed and (on_algebra or x.get("kind") in OF_MASSES):
+            raise ProblemError(
+                f"output {k}: beside [{where}] are no points: give expressions 'y' of the state"
+                + ("" if on_algebra else f", or one of {', '.join(others)}")
+            )
+        if wrong := fault_of_gravity(x, pointless=True):
+            raise ProblemError(f"output {k}: {wrong}")
+
+
 def _without_points(
     data: Mapping[str, Any],
     moved: Group | None,
@@ -247,14 +261,7 @@ def _without_points(
     if not negative_stiffness:
         _positive(negative_stiffness_of((), damping, parameters), "stiffness")
     stated = (*of_state, *as_forces(damping, reader)[1])
-    others = [x for x in OUTPUTS if x not in (*OF_MASSES, ExpressionOutput.kind)]
-    for k, x in enumerate(tables(data, "output"), 1):
-        placed = "y" not in x or {*ATTACHED} & {*x}
-        if placed and (advected is not None or x.get("kind") in OF_MASSES):
-            raise ProblemError(
-                f"output {k}: beside [{where}] are no points: give expressions 'y' of the state"
-                + ("" if advected is not None else f", or one of {', '.join(others)}")
-            )
+    _require_readable(data, where, advected is not None)
     reader.knows_acting(inputs, stated)
     observed = outputs(data, reader, inputs, stated)
     problem = Problem(

@@ -26,7 +26,7 @@ from ..schema.force_kinds import (
     StatedForce,
 )
 from ..schema.kind import GROUP, Advected, Fluid, Kinematics, Lagrangian, Torus
-from ..schema.motion_kinds import OF_MASSES, OUTPUTS
+from ..schema.motion_kinds import OF_MASSES, OUTPUTS, fault_of_gravity
 from ..schema.potential_kinds import kinds
 from ..schema.table import ACTIONS, DETERMINANT, Rows, Slot, Table
 from ..schema.table_reader import LONGEST, NAME, TableReader
@@ -148,6 +148,9 @@ class _RecordReader(TableReader):
         on_algebra = "advected" in data or "torus" in data
         if on_algebra and "lagrangian" not in data:
             raise ShapeError("advected, torus: they are of a problem with a Lagrangian of its own")
+        faults = (fault_of_gravity(x, "lagrangian" in data) for x in data.get("outputs", ()))
+        if wrong := next(filter(None, faults), ""):
+            raise ShapeError(f"outputs: {wrong}")
         if "lagrangian" not in data:
             return
         beside = ("potentials", "flows", *(() if "torus" in data else ("damping",)))

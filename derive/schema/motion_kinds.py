@@ -76,12 +76,14 @@ OtherEnd = Annotated[int | None, Key("other_end", keys=("to",))]
 Anchor = Annotated[Row | None, Key("anchor", 1, trees=True, keys=("to",))]
 SpringNumber = Annotated[int, Key("spring")]
 Acting = Annotated[str | None, Key("acting_name", null=True)]
+Falling = Annotated[Row | None, Key("vector", 1, trees=True)]
 ReadAt = Annotated[int | None, Key("end", keys=ATTACHED)]
 Unit = Annotated[str, Key("unit")]
 Expressions = Annotated[Row, Key("observed", 1, trees=True)]
 """A vector that is not 0; the point, or the point of space, up to which a distance is; a potential
-that is a spring, by its number; what acts, by its name; the place whose r_1, …, v_1, … expressions
-name, if they do; a unit; expressions of the state, t, inputs and parameters."""
+that is a spring, by its number; what acts, by its name; the acceleration of what falls; the place
+whose r_1, …, v_1, … expressions name, if they do; a unit; expressions of the state, t, inputs and
+parameters."""
 
 
 class Output(Table):
@@ -115,10 +117,11 @@ class AccelerationOutput(PlaceOutput):
 
 class SpecificForceOutput(Output):
     """What an accelerometer reads there: the acceleration less that of uniform gravity, along the
-    axes of the body."""
+    axes of the body; beside a Lagrangian, which does not say what of it is gravity, less ``g``."""
 
-    kind = "specific_force"
+    kind, may = "specific_force", ("g",)
     on: End
+    g: Falling = None
 
 
 class RateOutput(Output):
@@ -201,14 +204,16 @@ class ExpressionOutput(Output):
         to: int | Sequence[Number] | None = None,
         direction: Sequence[Number] | None = None,
         of: int | str | None = None,
+        g: Sequence[Number] | None = None,
         unit: str | None = None,
     ) -> Any:
         """What is read off a motion: the "place", "velocity", "acceleration" or "specific_force" of
         a point or a place of the body; a "rate", that of turning; a "direction" of the body in
         space, or of space in the frame "body"; the "distance" to a point or an anchor; the
         "momentum"; the "tension" of a spring, the potential of that number; the "power" of what
-        acts by a name, or of all; or expressions y. A unit is beside it in runs."""
-        told = {"name": name, "kind": kind, "y": y, "frame": frame, "to": to}
+        acts by a name, or of all; or expressions y. Beside a Lagrangian a specific force is the
+        acceleration less g. A unit is beside it in runs."""
+        told = {"name": name, "kind": kind, "y": y, "frame": frame, "to": to, "g": g}
         told |= {"direction": direction, "of": of, "block": block, "unit": unit}
         return told if on is None else told | place(on, block)
 
@@ -230,6 +235,18 @@ OUTPUTS: dict[str, type[Output]] = {
     )
 }
 
-OF_MASSES = ("specific_force", "momentum", "tension")
-"""Kinds that need masses, their weights or springs: where no points give the Lagrangian there are
-none; what of it is uniform gravity it does not say."""
+
+def fault_of_gravity(data: Mapping[str, Any], pointless: bool) -> str:
+    """What is wrong with an output that has, or lacks, the acceleration of gravity; "" for none."""
+    if data.get("kind") != SpecificForceOutput.kind or (data.get("g") is not None) == pointless:
+        return ""
+    if pointless:
+        return (
+            "L does not say what of it is uniform gravity: give its acceleration, as "
+            "g = [0, 0, -9.81] in space, or read the acceleration"
+        )
+    return "g: the potentials of a body say what gravity there is; leave this out"
+
+
+OF_MASSES = ("momentum", "tension")
+"""Kinds that need masses or springs: where no points give the Lagrangian there are none."""

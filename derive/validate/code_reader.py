@@ -28,6 +28,8 @@ MADE = (
 )
 """Arrays whose numbers are still to be written."""
 LETTERS = {"xp", "t", "x", "k", "u", *(x for y in CONTRACT.values() for z in y for x in z.split())}
+NO_NUMBERS = ("NAN", "f64 :: NAN", "f32 :: NAN", "Float64 ( NaN )", "Float32 ( NaN )")
+"""What stands in a table of defaults for a parameter that has none."""
 FAILING = ("throw new RangeError ( … )", "throw ( … )", "return Err ( … )")
 PURE = re.compile(
     "if|end|throw|new|return|Err|Refused|NotFinite|Singular|RangeError|DomainError|"
@@ -36,6 +38,16 @@ PURE = re.compile(
 )
 """The words of error checks, beside the names of the function: none changes a number."""
 CHANGING = ("=", "+=", "-=", "*=", "/=", "++", "--", "??=")
+
+
+def by_name(parameters: Any, defaults: tuple[Any, ...]) -> dict[str, Any]:
+    """Those of a table that has one for each parameter; ``CodeError`` where it has not."""
+    if len(defaults) != len(parameters) or not all(
+        isinstance(x, Fraction | None) for x in defaults
+    ):
+        raise CodeError("the defaults are not a number, or none, for each parameter")
+    pairs = zip(parameters, defaults, strict=True)
+    return {name: x for name, x in pairs if x is not None}
 
 
 class Reader(ExpressionReader):
@@ -104,6 +116,8 @@ class Reader(ExpressionReader):
             return found
         if self.word.startswith('"'):
             return self.next().strip('"')
+        if self.took(*NO_NUMBERS):
+            return None
         if NAME.fullmatch(self.word) and self.near(1) == ":":
             return self.next()
         if self.word not in OPEN:
@@ -141,10 +155,12 @@ class Reader(ExpressionReader):
             if counted.get(x, n) != n:
                 raise CodeError(f"N_{x} is {n}, not {counted[x]}")
         sizes = {"CONSERVED": 0, **stated, **counted}
+        state, parameters, inputs = (lists[x] for x in LISTS[:3])
         basis, defaults = self.values.get("BASIS"), self.values.get("DEFAULTS")
+        if isinstance(defaults, tuple):
+            defaults = by_name(parameters, defaults)
         if not isinstance(defaults, (dict, type(None))):
             raise CodeError("DEFAULTS are no numbers by their names")
-        state, parameters, inputs = (lists[x] for x in LISTS[:3])
         further = lists.get("OUTPUTS"), lists.get("STATE_BY_BLOCK")
         return Module(state, parameters, inputs, self.functions, sizes, defaults, basis, *further)
 

@@ -5,10 +5,11 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from fractions import Fraction
 from pathlib import PurePath
 from typing import Any
 
-from .code_reader import SIZES, Reader
+from .code_reader import SIZES, Reader, by_name
 from .exact_points import BUNDLES
 from .syntax import CONTRACT, SYNTAX, Token, tokens
 from .terms import CodeError, Module, Statement, plain_text
@@ -210,7 +211,9 @@ class CReader(Reader):
         sizes = {x: self.sizes.get(f"{self.prefix}_N_{x}", -1) for x in SIZES}
         lists = (self.values.get(f"{self.prefix}_{x}_names") for x in LISTS[:4])
         state, parameters, inputs, outputs = lists
-        return Module(state, parameters, inputs, self.functions, sizes, outputs=outputs)
+        if (defaults := self.values.get(f"{self.prefix}_defaults")) is not None:
+            defaults = by_name(parameters or (), defaults)
+        return Module(state, parameters, inputs, self.functions, sizes, defaults, outputs=outputs)
 
     def _further(self) -> bool:
         """Pass what holds the integrals over an ellipsoid, or what is no claim of the record and
@@ -294,22 +297,25 @@ class CReader(Reader):
         return sizes | {f"{self.prefix}_{x}": k for k, x in enumerate(REFUSALS, 1)}
 
     def _list_of_names(self) -> bool:
-        """Read the declaration of a list of names, or the list, where one stands here."""
-        head = "const char * const"
-        stated = self.took(f"extern {head}")
-        if not stated and not self.took(head):
+        """Read the declaration of a list of names, or of the defaults, or the list, where one
+        stands here."""
+        stated, table = self.took("extern"), f"{self.prefix}_defaults"
+        names = self.took("const char * const")
+        if not names and not self.took(f"const double {table}", f"const float {table}"):
+            self.at -= stated
             return False
-        if self.word not in {f"{self.prefix}_{x}_names" for x in LISTS}:
+        if names and self.word not in {f"{self.prefix}_{x}_names" for x in LISTS}:
             self.unknown()
-        name = self.next()
+        name = self.next() if names else table
         self.take("[ … ]")
         if not stated:
             self.take("=")
             if name in self.values:
                 self.unknown(f"{name} stands twice")
             self.values[name] = found = self.value()
-            if not isinstance(found, tuple) or not all(isinstance(x, str) for x in found):
-                self.unknown(f"{name} is no list of names")
+            kinds = str if names else Fraction | None
+            if not isinstance(found, tuple) or not all(isinstance(x, kinds) for x in found):
+                self.unknown(f"{name} is no list of {'names' if names else 'numbers'}")
         self.take(";")
         return True
 

@@ -52,6 +52,10 @@ const char *const se3_input_names[] = {
     "u_6",
 };
 
+const double se3_defaults[] = {
+    1.0, 0.0, 0.0, 0.2, 1.3, 0.1, 0.05, 0.9, -0.07, 0.4, 0.0, 0.0, -9.81,
+};
+
 int se3_constants(const double *se3_RESTRICT p, double *se3_RESTRICT k)
 {
     const double m = p[0];

@@ -127,6 +127,9 @@ extern const char *const se3_state_names[se3_N_STATE];
 extern const char *const se3_parameter_names[se3_N_PARAMETERS];
 extern const char *const se3_input_names[se3_N_INPUTS];
 
+/* The defaults of the parameters, NAN where there is none. */
+extern const double se3_defaults[se3_N_PARAMETERS];
+
 /* All that depends on the parameters alone.  Returns 0, se3_SINGULAR or
  * se3_NOT_FINITE; k is written in any case.  With -ffast-math a compiler takes every number
  * for finite: se3_NOT_FINITE is never returned then. */

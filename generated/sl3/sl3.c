@@ -51,6 +51,11 @@ const char *const sl3_parameter_names[] = {
     "k34",
 };
 
+const double sl3_defaults[] = {
+    1.0, 1.0, 0.0, 0.0, 1.1, 0.0, 1.0, 0.0, 1.2, 0.0, 0.0, 1.0, 1.3, -1.0, -1.0, -1.0, 1.0, 1.0,
+    1.0, 1.0, 1.0, 1.0,
+};
+
 int sl3_constants(const double *sl3_RESTRICT p, double *sl3_RESTRICT k)
 {
     const double m1 = p[0];

@@ -132,6 +132,9 @@ extern "C" {
 extern const char *const sl3_state_names[sl3_N_STATE];
 extern const char *const sl3_parameter_names[sl3_N_PARAMETERS];
 
+/* The defaults of the parameters, NAN where there is none. */
+extern const double sl3_defaults[sl3_N_PARAMETERS];
+
 /* All that depends on the parameters alone.  Returns 0, sl3_SINGULAR or
  * sl3_NOT_FINITE; k is written in any case.  With -ffast-math a compiler takes every number
  * for finite: sl3_NOT_FINITE is never returned then. */

@@ -42,6 +42,10 @@ const char *const so3_input_names[] = {
     "u_3",
 };
 
+const double so3_defaults[] = {
+    0.0, 0.0, 0.2, 1.3, 0.1, 0.05, 0.9, -0.07, 0.4, 0.0, 0.0, -9.81,
+};
+
 int so3_constants(const double *so3_RESTRICT p, double *so3_RESTRICT k)
 {
     const double c_1 = p[0];

@@ -110,6 +110,9 @@ extern const char *const so3_state_names[so3_N_STATE];
 extern const char *const so3_parameter_names[so3_N_PARAMETERS];
 extern const char *const so3_input_names[so3_N_INPUTS];
 
+/* The defaults of the parameters, NAN where there is none. */
+extern const double so3_defaults[so3_N_PARAMETERS];
+
 /* All that depends on the parameters alone.  Returns 0, so3_SINGULAR or
  * so3_NOT_FINITE; k is written in any case.  With -ffast-math a compiler takes every number
  * for finite: so3_NOT_FINITE is never returned then. */

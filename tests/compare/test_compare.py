@@ -37,6 +37,9 @@ FULL = (
     inertia = sum(q * hat(p).T @ hat(p) for q, p in zip(full, AT)) - 13 * hat(r_0).T @ hat(r_0)
     push = rate""",
 )
+TURNED = """    N, A = M.copy(), x[:9].reshape(3, 3)
+    N[3:, 3:] = A.T @ M[3:, 3:] @ A
+"""
 FULL_TENSOR = "the tensor of inertia about the centre of mass is that of the start, where fuel is 6"
 FAULTS = {
     "sign of a gyroscopic row": (
@@ -58,6 +61,29 @@ FAULTS = {
         "vehicle",
         ("[0.2, 0, 0, 0, 3.9, 0]", "[0.2, 0, 0, 0, 4.4, 0]"),
         "operator_55 is 4.4, not 3.9",
+    ),
+    "an operator turned in its part of v": (
+        "vehicle",
+        ("p = M @", "p = mass(x) @"),
+        ("    return M", f"{TURNED}    return N"),
+        "the v-part of the operator of inertia has its numbers along the axes of space instead",
+    ),
+    "an operator of v, ω": (
+        "vehicle",
+        ("p = M @", "p = mass(x) @"),
+        ("    return M", "    return np.roll(M, (3, 3), (0, 1))"),
+        "the operator of inertia has v before ω",
+    ),
+    "coupling in the momenta": (
+        "vehicle",
+        ("p = M @", "p = (M * np.kron([[1, -1], [-1, 1]], np.ones((3, 3)))) @"),
+        "what couples ω and v in the operator of inertia in the momenta π, p of the Coriolis terms",
+    ),
+    "axes of an operator": (
+        "vehicle",
+        ("p = M @", "p = mass(x) @"),
+        ("    return M", "    J = [0, 1, 2, 3, 5, 4]\n    return M[np.ix_(J, J)]"),
+        "the operator of inertia has the axes 2 and 3 exchanged, on the side of v",
     ),
     "products of inertia": (
         "drone",

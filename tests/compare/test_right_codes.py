@@ -16,7 +16,7 @@ import pytest
 from derive.command.showing import load_problem
 from derive.command.simulating import made
 from derive.compare.comparison import comparison, reports
-from derive.compare.user_states import SIZES, WORDS
+from derive.compare.user_states import SIZES, WORDS, kind_of
 from tests.compare import codes
 from tests.compare.codes import LISTED
 from tests.support.library import ONE_BUILD, library, module_of
@@ -32,15 +32,19 @@ def drawn(seed, state, inputs=(), in_blocks=True):
     chosen = random.Random(seed)
     names = [*state]
     if in_blocks:
-        moving = ["position", "velocity"] * ("T_1" in state)
-        names = [["quaternion", "euler", "matrix"][seed % 3], "omega", *moving]
+        names = []
+        for i, mark in enumerate(("1", "2") if "A2_11" in state else ("",)):
+            moving = ["position", "velocity"] * (f"T{mark}_1" in state)
+            own = [["quaternion", "euler", "matrix"][(seed + i) % 3], "omega", *moving]
+            names += [x + mark for x in own]
     chosen.shuffle(names)
-    said = {x: {k: chosen.choice(y) for k, y in WORDS[x].items()} for x in names if x in WORDS}
-    plain = [x for x in names if x not in SIZES and x != "euler"]
+    said = {x: WORDS[kind_of(x)] for x in names if kind_of(x)}
+    said = {x: {k: chosen.choice(y) for k, y in words.items()} for x, words in said.items()}
+    plain = [x for x in names if kind_of(x) not in (*SIZES, "euler")]
     units = {x: chosen.choice(UNITS) for x in plain if in_blocks or not x.startswith("A")}
     order = [*range(len(inputs))]
     chosen.shuffle(order)
-    sizes = [(x, SIZES.get(x, 3) if x in WORDS else 1) for x in names]
+    sizes = [(x, SIZES.get(kind_of(x), 3) if kind_of(x) else 1) for x in names]
     found = {"state": sizes, "said": said, "units": units, "inputs": order, "options": {}}
     return found | {"names": [*state]}
 
@@ -79,7 +83,7 @@ OURS = [
 ]
 QUATERNIONS = [(name, x) for name, own in LISTED["quaternions"].items() for x in own]
 NEEDS = {f"{x}_bodies.py": [f"the module {x}"] for x in ("pinocchio", "mujoco")}
-OF_NAMES = ("hung_bar", "PLANE", "pendulum", "two_tops", "coupled", "sl3", "heisenberg")
+OF_NAMES = ("hung_bar", "PLANE", "pendulum", "coupled", "sl3", "heisenberg")
 """Problems whose state has no blocks."""
 
 

@@ -247,6 +247,9 @@ LISTS = [
     ("so3.c", '    "c_1",\n    "c_2",', '    "c_2",\n    "c_1",', "parameters"),
     ("so3.py", '    "u_1",\n', "", "names of inputs"),
     ("so3.py", '"c_3": 0.2', '"c_3": 0.3', "defaults"),
+    *((f"so3.{x}", " 0.0, 0.2, ", " 0.0, 0.3, ", "defaults") for x in ("c", "rs", "jl")),
+    ("so3.c", ", -9.81,\n", ", NAN,\n", "defaults"),
+    ("so3.jl", ", -9.81,\n", ",\n", "the defaults are not a number"),
     ("so3.py", "[[0, 0, 0], [0, 0, -1]", "[[0, 0, 0], [0, 0, 1]", "basis"),
     ("so3.h", "so3_N_INPUTS = 3", "so3_N_INPUTS = 4", "so3_SIZE_U is 3, not 4"),
     ("so3.h", "so3_N_CONSTANTS = 20", "so3_N_CONSTANTS = 21", "so3_SIZE_K is 20, not 21"),
@@ -262,6 +265,31 @@ def test_a_wrong_list_or_size_is_refused(file, old, new, reason):
     found = [r for r in reports("so3", {file: text.replace(old, new)}) if not r.holds]
     assert len(found) == 1
     assert reason in found[0].text
+
+
+BARE = """
+name = "bare"
+group = "SO(2)"
+[parameters]
+a = {}
+b = 0.1
+[[point]]
+mass = "a"
+at = ["b", 0.3]
+"""
+ABSENT = {"c": "NAN", "rust": "f64::NAN", "julia": "Float64(NaN)"}
+
+
+@pytest.mark.parametrize("language", ABSENT)
+def test_a_parameter_without_a_default_is_none_in_the_table(language):
+    made = Emission(BARE, [language])
+    file = f"bare{ENDS[language]}"
+    table = f"    {ABSENT[language]}, 0.1,\n"
+    assert not made.refused({})
+    for other in (table.replace(ABSENT[language], "0.0"), f"    0.1, {ABSENT[language]},\n"):
+        assert table in made.files[file]
+        changed = made.files[file].replace(table, other)
+        assert "the defaults of the parameters are not those" in made.refused({file: changed})
 
 
 SIZES = [

@@ -124,6 +124,22 @@ def test_the_record_holds(what):
     assert labels.isdisjoint({"conserved", "by_momenta", "poisson_tensor"})
 
 
+@pytest.mark.parametrize("group", ["SE(3)", "SO(3)"])
+def test_a_motion_ends_before_its_metric_is_singular(group):
+    """I_33 = J_11 + J_22 is 0 at t = 15, where there is a mass yet."""
+    J = [["3 - t/5", 0, 0], [0, "3 - t/5", 0], [0, 0, "4 - t/10"]]
+    body = {"given": {"m": "20 - t/2", "c": [0, 0, 0], "J": J}}
+    flow = [{"at": [0, 0, -1], "rate": "-1/2", "velocity": [0, 0, -2]}]
+    data = {"name": "test", "group": group, "body": body, "flow": flow}
+    assert derive.derive(problem_of(data)).simulate(14.9)["t"][-1] == 14.9
+    told = "the mass matrix is singular or not positive at t = 15, and the motion is to go on to"
+    with pytest.raises(ValueError, match=told):
+        derive.derive(problem_of(data)).simulate(20.0)
+    ended = data | {"event": [{"name": "out", "when": "t - 14", "terminal": True}]}
+    run = derive.derive(problem_of(ended)).simulate(20.0)
+    assert abs(run["t"][-1] - 14) < 1e-9
+
+
 def test_a_motion_ends_before_its_mass_is_used_up():
     told = "the mass 9 − t of a point is used up at t = 9, and the motion is to go on to t = 12"
     masses = [{"mass": "9 - t", "at": [1, 0]}, {"mass": 2, "at": [0, 1]}]

@@ -289,10 +289,10 @@ class Observed(Mapping[str, Any]):
     def specific_force(self, data: Data) -> Vector:
         """The acceleration less those of all uniform gravities, on the axes of the body."""
         found = accelerations(self.model)[data["on"] - 1]
-        for p in self.model.problem["potentials"]:
-            if p["kind"] == "gravity":
-                pairs = zip(found, self._given(data, p["g"]), strict=True)
-                found = tuple(x - y for x, y in pairs)
+        fields = [p["g"] for p in self.model.problem["potentials"] if p["kind"] == "gravity"]
+        for g in (*fields, *([data["g"]] if "g" in data else ())):
+            pairs = zip(found, self._given(data, g), strict=True)
+            found = tuple(x - y for x, y in pairs)
         return self.seen(data, found)
 
     def rate(self, data: Data) -> Vector:

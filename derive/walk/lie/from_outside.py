@@ -33,6 +33,7 @@ from ...schema.motion_kinds import (
     PlaceOutput,
     PowerOutput,
     RateOutput,
+    SpecificForceOutput,
     VelocityOutput,
 )
 from ..chapter import Chapter, Steps, say
@@ -196,6 +197,12 @@ class Places:
                 at = self.group.of_block(self.problem.block(x.on))
                 place = _times(self.A, self.body[x.on - 1])[at]
                 return [hypot(*(add(y, neg(z)) for y, z in zip(place, anchor, strict=True)))]
+            case SpecificForceOutput(g=g) if g is not None:
+                there = AccelerationOutput(name=x.name, on=x.on, frame="body")
+                block = self.problem.block(x.on)
+                falling = [*g] if not any(g) else self._turned_back(g, block)
+                pairs = zip(self._of_place(there), falling, strict=True)
+                return [add(y, neg(z)) for y, z in pairs]
             case PlaceOutput():  # velocities and accelerations are such, too
                 return self._of_place(x)
         raise ProblemError(f"output {x.name!r}: beside a Lagrangian no points have it")

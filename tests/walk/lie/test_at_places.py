@@ -120,6 +120,41 @@ def _spelt(text, names):
     return text.replace("ZETA", "zeta")
 
 
+GAMMA = (0.5, 0, -9)
+
+
+@pytest.mark.parametrize(
+    ("group", "side"), [("SE(3)", "left"), ("SO(3)", "left"), ("SO(3)", "right")]
+)
+def test_a_specific_force_is_less_the_gravity_that_is_said(group, side):
+    """As that of points with the weight, in L here, whose gravity the output is told."""
+    imu = {"name": "imu", "kind": "specific_force", "at": [1, 2, 0.4]}
+    data = {"name": "test", "group": group}
+    falls = {"potential": [{"kind": "gravity", "g": [*GAMMA]}], "output": [imu]}
+    points = derive.compile(problem_of(data | of_points(group) | falls))
+    free = group == "SE(3)"
+    if side == "right":
+        L = kinetic(group, side)["lagrangian"]["L"]
+    else:
+        M = np.array(kinetic(group, side)["inertia"]["operator"])
+        rows = range(1, len(M) + 1)
+        L = " + ".join(f"{M[i - 1][j - 1]}*zeta_{i}*zeta_{j}/2" for i in rows for j in rows)
+    c = CENTRE if free else [0, 0, 0]
+    for j in (1, 2, 3):
+        centre = [f"{c[k]}*A_{j}{k + 1}" for k in range(3)] + [f"{MASS}*T_{j}"] * free
+        L += f" + {GAMMA[j - 1]}*({' + '.join(centre)})"
+    told = {"lagrangian": {"L": L, "trivialisation": side}, "output": [imu | {"g": [*GAMMA]}]}
+    own = problem_of(data | told)
+    typed, rng = derive.compile(own), np.random.default_rng(5)
+    R, zeta = random_rotation(rng), rng.normal(size=6 if free else 3)
+    x = np.array([*R.ravel(), *[0.3, -1, 2][: 3 * free], *zeta])
+    y = x.copy()
+    y[-3:] = R @ zeta if side == "right" else x[-3:]
+    seen = points.outputs(0.4, x)
+    assert np.abs(typed.outputs(0.4, y) - seen).max() < 1e-12 * np.abs(seen).max()
+    assert all(v.holds for v in own_verdicts(derive.derive(own).record))
+
+
 def test_a_false_arm_is_seen():
     record = derive.derive(
         problem_of({"name": "test", "group": "SE(3)", **PUSHED, **kinetic("SE(3)", "left")})
