@@ -27,7 +27,7 @@ from ..routines.c import C
 from .conventions import heading
 from .ellipsoid import BUNDLES, is_integral
 from .group_functions import printed_group
-from .languages import LANGUAGES, SourcePrinter, Statements, TargetLanguage, comment
+from .languages import LANGUAGES, Statements, TargetLanguage, comment
 from .naming import taken_prefix
 from .options import Options
 from .printed_integrals import integrals

@@ -328,7 +328,9 @@ def jacobian_parameters(
             for q in range(PARAMETERS):
                 drag: var[real] = 0.0
                 for n in range(POWERS):
-                    drag = drag * real(d * d + size * size) + slopes[(POWERS - 1 - n) * PARAMETERS + q]
+                    drag = (
+                        drag * real(d * d + size * size) + slopes[(POWERS - 1 - n) * PARAMETERS + q]
+                    )
                 here: index = at * DOWN_PARAMETERS + q * ALONG
                 D[here] = -drag * x[at]
                 D[here + DOWN_PARAMETERS] = -drag * x[at + 1]
