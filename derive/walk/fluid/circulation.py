@@ -177,8 +177,7 @@ def circulation(
             Equation(rated, pushed, (w.acceleration.name,)),
             Equation(rated, keeping.tree(work, trees(a))),
         ),
-        say(f"circulation.{_kind(a)}")
-        + (say("circulation.potential") if a.forced else ()),
+        say(f"circulation.{_kind(a)}") + (say("circulation.potential") if a.forced else ()),
         where=given,
     )
     return first, second

@@ -107,9 +107,7 @@ def forcing(stage: FluidKernel, a: FluidAlphabet, c: Chapter) -> FluidKernel:
     moved = word(w.acceleration) + word(a.Z.velocity) * word(w.velocity) - word(a.force)
     core = terms_with(balance, w.acceleration)
     shown = factored_tree(draft, balance, core, {w.acceleration: moved}, trees(a))
-    step = draft.step(
-        (Equation(shown, 0, (w.xi_prime.name,)),), say("forcing.fluid")
-    )
+    step = draft.step((Equation(shown, 0, (w.xi_prime.name,)),), say("forcing.fluid"))
     return FluidKernel(draft.mark(balance), draft.mark(force), (step,))
 
 
@@ -306,4 +304,3 @@ def _boundary(stage: FluidKernel, points: Points, a: FluidAlphabet, c: Chapter) 
         ),
         say("boundary.tangent"),
     )
-
