@@ -173,11 +173,12 @@ FLUID = (
     Stage("trivial", "cartan points a c", "Cartan", fluid_forms.trivialised),
     Stage("derivative", "exterior trivial a c", "Exterior", fluid_forms.exterior_by_fields),
     Stage("kernel", "derivative principle a c", "FluidKernel", fluid_kernel.kernel),
-    Stage("pressure", "kernel points a c", "Steps", fluid_kernel.pressure),
+    Stage("forcing", "kernel a c_u", "FluidKernel", fluid_kernel.forcing),
+    Stage("pressure", "forcing points a c_u", "Steps", fluid_kernel.pressure),
     Stage("advection", "a c", "Steps", circulation.advection),
-    Stage("energy", "kernel trivial a c", "Step", circulation.energy),
-    Stage("circulation", "kernel points a c", "Steps", circulation.circulation),
-    Stage("kelvin", "kernel points a c", "Steps", circulation.kelvin),
+    Stage("energy", "forcing trivial a c_u", "Step", circulation.energy),
+    Stage("circulation", "forcing points a c_u", "Steps", circulation.circulation),
+    Stage("kelvin", "forcing points a c_u", "Steps", circulation.kelvin),
 )
 """An incompressible fluid: the road of ANY_GROUP, affine, with composition for matrices."""
 KINEMATICS = (Stage("errors", "problem group c", "Steps", invariant_errors.kinematics_steps),)
@@ -210,8 +211,11 @@ def walk(problem: Problem) -> Derivation:
             problem.name,
             advected=problem.fluid.density == "advected",
             forced=problem.fluid.forces == "potential",
+            given=problem.fluid.forces == "given",
         )
-        values = follow(FLUID, {"a": a, "c": Chapter(problem.name, problem.group_name)}, ())
+        c = Chapter(problem.name, problem.group_name)
+        acting = c.with_input() if a.given else c
+        values = follow(FLUID, {"a": a, "c": c, "c_u": acting}, ())
     elif problem.torus:
         values = lagrangian_road("right")
     elif problem.kinematics:

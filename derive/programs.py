@@ -244,7 +244,7 @@ def require_program(problem: Problem, record: Derivation, options: Options | Non
     chosen = options or Options()
     watched(problem.name, problem.events, chosen)
     if problem.torus:
-        require_on_torus(record, chosen)
+        require_on_torus(record, problem.torus, chosen)
     elif problem.kinematics:
         from .code.kinematics_program import require_kinematics
 

@@ -27,7 +27,7 @@ from ..routines.c import C
 from .conventions import heading
 from .ellipsoid import BUNDLES, is_integral
 from .group_functions import printed_group
-from .languages import LANGUAGES, SourcePrinter, Statements, TargetLanguage, comment
+from .languages import LANGUAGES, Statements, TargetLanguage, comment
 from .naming import taken_prefix
 from .options import Options
 from .printed_integrals import integrals
@@ -325,7 +325,7 @@ def _fields(
     if language.name == "fmu":
         fields |= fields_of(p, asked, generated)
     if p.loops:
-        fields["loops"] = _loops(p.loops, language.name, printer, fields)
+        fields["loops"] = _loops(p, language.name, written, fields)
     return fields
 
 
@@ -415,11 +415,14 @@ def _count_loops(loops: Loops, known: Mapping[str, dict[str, Any]], language: st
 
 
 def _loops(
-    tables: Loops, language: str, printer: SourcePrinter, fields: Mapping[str, Any]
+    p: Program, language: str, written: Statements, fields: Mapping[str, Any]
 ) -> dict[str, Any]:
     """The template fields of the loops on the torus: N, (N − 1)/2, cos and sin of 2πk/N; or the
     functions that have them."""
-    printed = printed_sums(language, tables, fields) if language in PRINTERS else {}
+    tables, printer = p.loops, written.printer
+    varied = "jacobian_parameters" in tables.names
+    slopes = written.part(p.functions["jacobian_parameters"], "p") if varied else {}
+    printed = printed_sums(language, tables, fields, slopes) if language in PRINTERS else {}
     return printed | {
         "N": tables.N,
         "half": tables.N // 2,
@@ -430,6 +433,7 @@ def _loops(
         "scale": printer.number(tables.scale),
         "driven": tables.driven,
         "damping": tables.damping,
+        "by_parameters": tables.parameters,
     }
 
 

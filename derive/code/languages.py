@@ -318,10 +318,12 @@ class Statements:
             "operations": operations(f),
         }
 
-    def part(self, f: EmittedFunction) -> dict[str, list[str]]:
-        """Statements and outputs of what is a part of a function."""
+    def part(self, f: EmittedFunction, array: str = "") -> dict[str, list[str]]:
+        """Statements and outputs of what is a part of a function, with what it reads of an
+        array."""
         written = self.function(f)
-        lines = [x for s in written["sections"] for x in s["statements"]]
+        lines = [self._load(x, self.language.load) for x in f.loads if x.array == array]
+        lines += [x for s in written["sections"] for x in s["statements"]]
         return {"statements": lines, "outputs": written["outputs"]}
 
     def _wrapped(self, text: str, width: int) -> str:

@@ -97,16 +97,24 @@ def request_of(text: str) -> EmissionRequest | None:
 
 def require_options(d: Derivation, chosen: Options, where: str, *written: str) -> None:
     """``LoweringError`` for an option that is not written where a state is no motion of a body, in
-    words; but for those that are ``written``."""
+    words; but for those, and values of --jacobian, that are ``written``."""
     forms = [x for x in CHOICES if x not in ("real", "form")]
     added = ("momenta", "dynamics", "exponential", "multiplier")
     given = [
         *((y != CHOICES[x][0][0], f"--{x} {y}") for x in forms for y in [getattr(chosen, x)]),
-        (chosen.jacobian, f"--jacobian {' '.join(chosen.jacobian)}"),
+        *((x not in written, f"--jacobian {x}") for x in chosen.jacobian),
         ("discrete" in chosen.step, "--step discrete"),
         *((getattr(chosen, x), f"--{x}") for x in added if x not in written),
     ]
     refuse_first(d.name, *((on, f"{option} is not written {where}") for on, option in given))
+
+
+def require_columns(d: Derivation, chosen: Options) -> None:
+    """``LoweringError`` where there is nothing to linearise in, or nothing to linearise."""
+    if "inputs" in chosen.jacobian and not d.problem.get("inputs"):
+        raise LoweringError(f"{d.name}: there are no inputs to linearise in")
+    if "outputs" in chosen.jacobian and not d.problem.get("outputs"):
+        raise LoweringError(f"{d.name}: there are no outputs to linearise; give [[output]] tables")
 
 
 def require_written(d: Derivation, group: Group, chosen: Options) -> None:
@@ -124,10 +132,7 @@ def require_written(d: Derivation, group: Group, chosen: Options) -> None:
                 f"{d.name}: --jacobian {by} is a matrix of {rows * width} entries on {group.name}, "
                 f"of dimension {group.dimension}; compilers manage {most}: leave it out"
             )
-    if "inputs" in chosen.jacobian and not d.problem.get("inputs"):
-        raise LoweringError(f"{d.name}: there are no inputs to linearise in")
-    if "outputs" in chosen.jacobian and not d.problem.get("outputs"):
-        raise LoweringError(f"{d.name}: there are no outputs to linearise; give [[output]] tables")
+    require_columns(d, chosen)
     _refused_forms(d, group, chosen)
     if chosen.multiplier and d.definition("θ") is None:
         raise LoweringError(

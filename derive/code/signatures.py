@@ -176,8 +176,9 @@ def functions(p: Program, written: Statements) -> dict[str, dict[str, Any]]:
         varied = name.startswith("jacobian") and name != "jacobian_project"
         return p.kinks.get(kind, ()) if varied else ()
 
+    looped = p.loops.names if p.loops else ()
     return {
-        s.name: _function(s, f, sizes)
+        s.name: _function(s, f, sizes, stored=s.name not in looped)
         | {"kinks": kinks(s.name)}
         | (told if s.name == "energy" else {})
         for s, f in found.items()
@@ -185,9 +186,12 @@ def functions(p: Program, written: Statements) -> dict[str, dict[str, Any]]:
     }
 
 
-def _function(s: Signature, body: Mapping[str, Any], sizes: Mapping[str, int]) -> dict[str, Any]:
+def _function(
+    s: Signature, body: Mapping[str, Any], sizes: Mapping[str, int], *, stored: bool
+) -> dict[str, Any]:
+    """``stored``: are its outputs what it writes, number by number?"""
     counts = {a.name: prod(sizes[x] for x in a.sizes) for a in s.writes}
-    places = [(a, i) for a, count in counts.items() for i in range(count)]
+    places = [(a, i) for a, count in counts.items() for i in range(count) if stored]
     texts = zip(places, body["outputs"], body["titles"], strict=True) if places else ()
     D = next((a for a in s.writes if a.name == "D"), None)
     rows = sizes[D.sizes[0]] if D else 0

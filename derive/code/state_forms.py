@@ -74,11 +74,16 @@ def state_of(
     return found
 
 
+def of_plain_variations(count: int) -> str:
+    """The same where the state has no element of the group."""
+    return f"A variation V of a state has {count} numbers: what those of x change by."
+
+
 def of_variations(space: StateSpace) -> str:
     """What variations V of a state are, as a sentence."""
     count = len(space.variations())
     if not space.has_element:
-        return f"A variation V of a state has {count} numbers: what those of x change by."
+        return of_plain_variations(count)
     V = ", ".join(["eta", "delta zeta", *(f"delta {x}" for x in space.stored)])
     told = (
         f"A variation V = ({V}) of a state has {count} numbers: delta g = "

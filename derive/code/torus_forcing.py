@@ -3,15 +3,21 @@
 from __future__ import annotations
 
 import textwrap
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 from ..algebra.structure import TorusLattice
+from ..language.derivatives import derivative
 from ..language.expression import names
 from ..language.show import show
 from ..language.tree import Tree
+from ..language.values import value
 from ..record.as_json import decode
 from ..record.record import Derivation
-from .naming import plain_text
+from .graph import Graph
+from .naming import ClaimedNames, plain_text
+from .program import EmittedFunction
+from .schedule import Scheduler, leaf_places
 
 
 @dataclass(frozen=True)
@@ -34,6 +40,20 @@ class EmittedForcing:
             tuple(told.get(p, 0) for p in range(max(told, default=-1) + 1)),
             tuple(x for x in d.problem["parameters"] if x in used),
         )
+
+    @property
+    def damping_slopes(self) -> tuple[Tree, ...]:
+        """The derivatives of the coefficients of damping by the parameters, power by power."""
+        leaves = [("par", x) for x in self.parameters]
+        return tuple(derivative(t, x) for t in self.damping for x in leaves)
+
+    def function(self, wanted: Sequence[Tree], claimed: ClaimedNames) -> EmittedFunction:
+        """A function of the parameters alone."""
+        graph = Graph()
+        known = {x: graph.leaf(x, "parameter") for x in self.parameters}
+        given = leaf_places(claimed, known.values(), "p")
+        found = [value(t, {}, known, graph.function, graph.num) for t in wanted]
+        return Scheduler(claimed, {}).function(found, given)
 
     def described(self) -> tuple[str, ...]:
         """In words, for the head of a file."""

@@ -5,14 +5,16 @@ from __future__ import annotations
 
 import math
 from collections.abc import Collection, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Any, NamedTuple
 
 import mpmath
 
 from ..algebra.structure import Place, TorusLattice
-from ..routines import printer_of, text_of
+from ..routines import PRINTERS, printer_of, text_of
+from .naming import ClaimedNames
+from .options import Options
 from .program import EmittedFunction, Load
 from .torus_forcing import EmittedForcing
 
@@ -40,7 +42,7 @@ class Term(NamedTuple):
 class Loops:
     """The tables of the loops for one N: cos and sin of 2πk/N; for small N the terms of each rate;
     and what the functions with loops, by ``names``, cost.  ``driven``: is there an input?
-    ``damping``: so many constants are coefficients of powers of |n|²."""
+    ``damping``: so many constants are coefficients of powers of |n|², by so many ``parameters``."""
 
     N: int
     names: frozenset[str]
@@ -50,6 +52,7 @@ class Loops:
     operations: Mapping[str, str]
     driven: bool = False
     damping: int = 0
+    parameters: int = 0
 
     @property
     def scale(self) -> Fraction:
@@ -67,7 +70,7 @@ def loops(torus: TorusLattice, names: Collection[str], forcing: EmittedForcing) 
     by_table = N <= TABLE and not (driven or damping)
     table = tuple(_terms(torus, n) for n in torus.half_plane) if by_table else ()
     few = (N * N - 1) * (driven + (damping + 1) * bool(damping))  # of what acts from outside
-    terms = sum(map(len, table))
+    terms, pairs = sum(map(len, table)), ((N * N - 1) // 2) ** 2
     return Loops(
         N,
         frozenset(names) | ({"rhs_batch"} if "rhs" in names else set()),
@@ -78,12 +81,16 @@ def loops(torus: TorusLattice, names: Collection[str], forcing: EmittedForcing) 
             "rhs": f"{whole} mul, {whole} add, and {6 * N * N + few} of less order",
             "rhs by table": f"{8 * terms} mul, {4 * terms} add",
             "rhs by three": f"{least} mul, {least} add, and {9 * N * N + few} of less order",
+            "jacobian": f"{11 * pairs} mul, {10 * pairs} add, and {6 * N * N + few} of less order",
+            "jacobian_inputs": "none",
+            "jacobian_parameters": f"{(damping + 2) * (N * N - 1)} mul for each parameter",
             "energy": f"{N * N - 1} mul, {N * N - 1} add, {(N * N - 1) // 2} div",
             "conserved": f"{turn + product} mul, {turn + product} add",
             "conserved by three": f"{turn + by_three} mul, {turn + by_three} add",
         },
         driven,
         damping,
+        len(forcing.parameters),
     )
 
 
@@ -120,30 +127,51 @@ def _cosine(turns: Fraction) -> Fraction:
         return Fraction(str(mpmath.cospi(half_turns)))
 
 
-def looped(torus: TorusLattice, forcing: EmittedForcing) -> dict[str, EmittedFunction]:
-    """Functions of which only what they read and how much they write is said here."""
+def looped(
+    torus: TorusLattice, forcing: EmittedForcing, chosen: Options
+) -> dict[str, EmittedFunction]:
+    """Functions of which only what they read and how much they write is said here, that not of
+    Jacobians, and of that by parameters the derivatives of the coefficients of damping."""
 
     def hollow(count: int, reads: str = "x") -> EmittedFunction:
         return EmittedFunction(tuple(Load(x, x, 0) for x in reads), (), (Fraction(0),) * count)
 
     of_rates = "x" + "u" * bool(forcing.inputs) + "k" * bool(forcing.damping)
-    return {
-        "rhs": hollow(torus.N**2 - 1, of_rates),
-        "energy": hollow(1),
-        "conserved": hollow(len(POWERS)),
-    }
+    found = {"rhs": hollow(torus.N**2 - 1, of_rates), "energy": hollow(1)}
+    if chosen.conserved:
+        found["conserved"] = hollow(len(POWERS))
+    if "state" in chosen.jacobian:
+        found["jacobian"] = hollow(0, of_rates)
+    if "inputs" in chosen.jacobian:
+        found["jacobian_inputs"] = hollow(0, "")
+    if "parameters" in chosen.jacobian:
+        slopes = forcing.function(forcing.damping_slopes, ClaimedNames())
+        found["jacobian_parameters"] = replace(slopes, loads=(Load("x", "x", 0), *slopes.loads))
+    return found
 
 
 OF_MATRICES = ("rhs", "conserved")
 
 
-def printed_sums(language: str, loops: Loops, fields: Mapping[str, Any]) -> dict[str, Any]:
-    """The bodies of these functions by their names; the tables and functions that they need."""
+def printed_sums(
+    language: str, loops: Loops, fields: Mapping[str, Any], slopes: Mapping[str, Any]
+) -> dict[str, Any]:
+    """The bodies of these functions by their names; the tables and functions that they need.
+    ``slopes``: what ``jacobian_parameters`` has of the parameters alone."""
     N, prefix = loops.N, fields["prefix"]
+    size = N * N - 1
+    # Julia has the columns of a matrix one after the other, others the rows
+    by_columns = language == "julia"
     M = N // 2 + 1
     # in C rows of a multiple of four numbers, which compilers take several at a time
     pad = 4 if language == "c" else 1
+    array = "jacobian_parameters_slopes" if language == "javascript" else "slopes"  # as hoisted
+    stored = (
+        f"{array}[{i + by_columns}] = {x}{PRINTERS[language].end}"
+        for i, x in enumerate(slopes.get("outputs", ()))
+    )
     given = {
+        "written": {"slopes": [*slopes.get("statements", ()), *stored]},
         "N": N,
         "M": M,
         "HALF": N // 2,
@@ -153,6 +181,12 @@ def printed_sums(language: str, loops: Loops, fields: Mapping[str, Any]) -> dict
         "DRIVEN": loops.driven,
         "DAMPED": loops.damping > 0,
         "POWERS": loops.damping,
+        "PARAMETERS": loops.parameters,
+        "SLOPES": loops.damping * loops.parameters,
+        "WIDTH": size,
+        "DOWN": 1 if by_columns else size,
+        "DOWN_PARAMETERS": 1 if by_columns else loops.parameters,
+        "ALONG": size if by_columns else 1,
         "FOURS": N - N % 4,
         "SIZE": float(N),
         "SCALE": float(loops.scale),
@@ -166,11 +200,13 @@ def printed_sums(language: str, loops: Loops, fields: Mapping[str, Any]) -> dict
     by_table = {"rhs"} if loops.table and language == "c" else set()
     named = loops.names & {*fields["functions"]} & {*routines} - by_table
     of_matrices = bool({*OF_MATRICES} & named)
-    tables = [*printer.tables()] if of_matrices else []
-    bodies = {}
+    tables, bodies = list[str](), {}
     for x in sorted(named):
         bodies[x] = "\n".join(printer.body(routines[x]))
         tables += printer.before
+    if of_matrices or "jacobian" in named:
+        only = () if of_matrices else ("sines",)
+        tables = [*printer.tables(*only), *tables]
     return {
         "bodies": bodies,
         "tables": "\n".join(tables),

@@ -15,8 +15,8 @@ from functools import reduce
 from typing import Any
 
 from ..algebra.structure import Place, TorusLattice
+from ..language.limits import SLOPES_IN_LOOPS
 from ..language.tree import Tree, mul
-from ..language.values import value
 from ..record.record import Derivation
 from .assemble import parameter
 from .dense import Complex
@@ -25,8 +25,9 @@ from .graph import Graph, Node
 from .naming import ClaimedNames
 from .options import Options
 from .program import EmittedFunction, LoweringError, Program
-from .requests import require_options
-from .schedule import Scheduler, frontier, leaf_places
+from .requests import require_columns, require_options
+from .schedule import Scheduler, by_numbers, frontier, leaf_places
+from .state_forms import of_plain_variations
 from .torus_forcing import EmittedForcing
 from .torus_loops import CONSERVED, TABLE, looped, loops
 from .watched_functions import EmittedEvent, table, values_of
@@ -156,12 +157,13 @@ def torus_program(
     """The program of a record on the torus; ``LoweringError`` for an option that it has not.
     ``events``: what is watched on a motion."""
     chosen = options or Options()
-    require_on_torus(d, chosen)
+    require_on_torus(d, torus, chosen)
     forcing = EmittedForcing.of(d, torus)
-    functions = looped(torus, forcing)
-    if not chosen.conserved:
-        del functions["conserved"]
-    own, constants = (_written_out if torus.N <= WRITTEN_OUT else _constants)(d, torus, forcing)
+    functions = looped(torus, forcing, chosen)
+    if torus.N <= WRITTEN_OUT:
+        own, constants = _written_out(d, torus, forcing, chosen)
+    else:
+        own, constants = _constants(forcing)
     functions |= own
     with_loops = {*functions} - {*own}
     acting = forcing.described()
@@ -183,6 +185,7 @@ def torus_program(
             "energy is the sum of |omega(n)|^2/(2 |n|^2), the mean of half the squared velocity"
             + ("; trace_k is Tr W^k/N." if chosen.conserved else "."),
             *described(torus),
+            *([of_plain_variations(torus.N**2 - 1)] * bool(chosen.jacobian)),
             *(_scratch(torus) if torus.N > TABLE else ()),
         ),
         torus.coefficients,
@@ -195,12 +198,22 @@ def torus_program(
         events=table(events),
         loops=loops(torus, with_loops, forcing) if with_loops else None,
         on_torus=True,
+        varied=torus.N**2 - 1 if chosen.jacobian else 0,
     )
 
 
-def require_on_torus(d: Derivation, chosen: Options) -> None:
+def require_on_torus(d: Derivation, torus: TorusLattice, chosen: Options) -> None:
     """``LoweringError`` for an option that is not written on the torus."""
-    require_options(d, chosen, "on the torus, whose state is the vorticity alone")
+    where = "on the torus, whose state is the vorticity alone"
+    require_options(d, chosen, where, "state", "inputs", "parameters")
+    require_columns(d, chosen)
+    if "parameters" in chosen.jacobian and not EmittedForcing.of(d, torus).parameters:
+        raise LoweringError(f"{d.name}: there are no parameters to linearise in")
+    if "state" in chosen.jacobian and (entries := (torus.N**2 - 1) ** 2) > SLOPES_IN_LOOPS:
+        raise LoweringError(
+            f"{d.name}: --jacobian state is a matrix of {entries} entries, at most "
+            f"{SLOPES_IN_LOOPS}: leave it out; its product with v is (rhs(x + v) - rhs(x - v))/2"
+        )
 
 
 def _scratch(torus: TorusLattice) -> tuple[str, ...]:
@@ -218,20 +231,16 @@ def _scratch(torus: TorusLattice) -> tuple[str, ...]:
 # -- written out ---------------------------------------------------------------------------------
 
 
-def _constants(
-    d: Derivation, torus: TorusLattice, forcing: EmittedForcing
-) -> tuple[dict[str, EmittedFunction], tuple[str, ...]]:
+def _constants(forcing: EmittedForcing) -> tuple[dict[str, EmittedFunction], tuple[str, ...]]:
     """The coefficients of damping that loops read, power by power, and their names."""
-    graph, claimed = Graph(), ClaimedNames()
-    known = {x: graph.leaf(x, "parameter") for x in forcing.parameters}
-    given = leaf_places(claimed, known.values(), "p")
-    found = [value(t, {}, known, graph.function, graph.num) for t in forcing.damping]
-    constants = tuple(claimed.claim(f"damping_{p}", f"power {p}") for p in range(len(found)))
-    return {"constants": Scheduler(claimed, {}).function(found, given)}, constants
+    claimed = ClaimedNames()
+    made, powers = forcing.function(forcing.damping, claimed), range(len(forcing.damping))
+    constants = tuple(claimed.claim(f"damping_{p}", f"power {p}") for p in powers)
+    return {"constants": made}, constants
 
 
 def _written_out(
-    d: Derivation, torus: TorusLattice, forcing: EmittedForcing
+    d: Derivation, torus: TorusLattice, forcing: EmittedForcing, chosen: Options
 ) -> tuple[dict[str, EmittedFunction], tuple[str, ...]]:
     """The functions of the record's equations, term by term, and the names of the constants."""
     graph = Graph()
@@ -241,10 +250,16 @@ def _written_out(
     motion, energy = d["motion"].equations[0].rhs, d["energy"].equations[0].rhs
     rates = [x for n in torus.half_plane for x in out.value(motion, {"𝐧": n})]
     wanted: dict[str, list[Node]] = {"rhs": rates, "energy": [out.value(energy, {}).re]}
+    known = [graph.leaf(x, "parameter") for x in forcing.parameters]
+    leaves = {"state": [*state.values()], "inputs": inputs, "parameters": known}
+    slopes = {by: by_numbers(graph, rates, leaves[by]) for by in chosen.jacobian}
+    if "state" in slopes:
+        wanted["jacobian"] = [*rates, *slopes["state"]]
+    if "inputs" in slopes:
+        wanted["jacobian_inputs"] = slopes["inputs"]
     wanted = {name: factored(graph, found) for name, found in wanted.items()}
     claimed = ClaimedNames()
     places = leaf_places(claimed, state.values(), "x") | leaf_places(claimed, inputs, "u")
-    known = [graph.leaf(x, "parameter") for x in forcing.parameters]
     given = leaf_places(claimed, known, "p")
     scheduler = Scheduler(claimed, {})
     fixed = frontier(x for found in wanted.values() for x in found)
@@ -252,6 +267,9 @@ def _written_out(
     kept = {x: (name, ("k", i)) for i, (x, name) in enumerate(zip(fixed, constants, strict=True))}
     functions = {"constants": scheduler.function(fixed, given)}
     functions |= {name: scheduler.function(x, places | kept) for name, x in wanted.items()}
+    if "parameters" in slopes:
+        found = factored(graph, slopes["parameters"])
+        functions["jacobian_parameters"] = scheduler.function(found, places | given)
     return functions, constants
 
 

@@ -100,6 +100,8 @@ OPERANDS = 300_000
 takes half a minute and 0.5 GB for them."""
 SLOPES = 4000
 """Entries of the linearised equations by the state: 3600 are those of Aff(5)."""
+SLOPES_IN_LOOPS = 10**6
+"""The same where loops write them, on the torus for N of 31 at most: 7 MB."""
 SLOPES_BY_PARAMETERS = 2000
 """Entries of the linearised equations by parameters: Aff(5) with symbolic moments has 1260, and
 takes seconds."""

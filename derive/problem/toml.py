@@ -201,7 +201,7 @@ def _fluid(data: Mapping[str, Any], reader: FileReader) -> Problem:
             acts = key in ("input", "force", "damping", "potential")
             raise ProblemError(
                 f"key {key!r}: [fluid] says all of the problem; leave this out"
-                + '; a force of the place is forces = "potential" there' * acts
+                + '; a force is forces = "potential" there, or "given"' * acts
                 + '; forcing and damping are on the torus, [algebra] of = "torus"'
                 * (key in ("input", "damping"))
             )

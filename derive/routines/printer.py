@@ -104,10 +104,12 @@ class Printer(ABC):
     def record(self, name: str, more: str = "") -> Lines:
         """The type of a record, or what makes one; ``more``: fields that no algorithm reads."""
 
-    def tables(self) -> Lines:
-        """The tables of numbers, known in the whole file."""
+    def tables(self, *only: str) -> Lines:
+        """The tables of numbers, known in the whole file, or some of them."""
         self.types, self.arguments, self.hoisted = {}, {}, {}
         for name, kind in self.source.tables.items():
+            if only and name not in only:
+                continue
             values = self.given[self.source.values[name]]
             yield from self.known_table(self.name(name), kind, values)
 

@@ -252,11 +252,13 @@ class _Known(ast.NodeTransformer):
         return x
 
     def visit_BinOp(self, x: ast.BinOp) -> ast.expr:
-        """The sum of whole numbers that are known."""
+        """The sum of whole numbers that are known; a number that is taken once."""
         self.generic_visit(x)
         match x:
             case ast.BinOp(ast.Constant(value=int(a)), ast.Add(), ast.Constant(value=int(b))):
                 return ast.Constant(a + b)
+            case ast.BinOp(left, ast.Mult(), ast.Constant(value=int(1))):
+                return left
         return x
 
     def visit_Call(self, x: ast.Call) -> ast.expr:

@@ -30,8 +30,8 @@ class StatedGroup(Table):
 
 Density = Annotated[str, Key("word", words=("homogeneous", "advected"))]
 """Everywhere the same; or from place to place another, which the fluid carries along."""
-Forces = Annotated[str, Key("word", words=("none", "potential"))]
-"""None; or per unit mass, −grad V of any function V of the place."""
+Forces = Annotated[str, Key("word", words=("none", "potential", "given"))]
+"""None; or per unit mass, −grad V of any function V of the place, or any field f, given."""
 GROUP = "SDiff"
 """The displacements that keep the volume."""
 

@@ -155,7 +155,7 @@ DENSE = record("inhomogeneous_fluid")
 NOTHING = ("add", "ρ", ("mul", -1, ("one",)))
 STEPS = {
     "another scope": (replace(STEP, scope="SO(3)"), "about its group"),
-    "with inputs": (replace(STEP, driven=True), "without inputs"),
+    "with inputs": (replace(STEP, driven=True), "no force is given"),
     "given something else": (replace(STEP, given=(Equation("u", 0),)), "what is given"),
     "for all u": (replace(STEP, equations=(replace(EQUATION, for_all=("u",)),)), "for all u"),
     "for all that it is": (

@@ -13,6 +13,7 @@ from tests.code.test_charts import FORMS as CHARTS
 from tests.code.test_forms import DRAG
 from tests.code.test_mass_matrix import REGULAR, typed
 from tests.problems import PROBLEMS as FILES
+from tests.support.corpus import stirred_torus
 from tests.support.languages import PIECES, Case, T, command
 from tests.support.library import BUILDS, emission, library, loaded
 from tests.support.needs import need
@@ -36,7 +37,6 @@ TURNING = {
     "input": [{"name": "u", "kind": "covector"}],
 }
 HYPERBOLIC = TURNING | {"group": "SO(2)", "lagrangian": {"L": "cosh(zeta_1) + A_11"}}
-FLUID = {"algebra": {"of": "torus", "N": 9}, "inertia": {"operator": "laplacian"}}
 OBSERVED = FILES["SE(2) x SO(2) outputs"]
 JACOBIANS = ("state", "inputs", "parameters", "raw")
 CHARTED = ("four factors", "and matrices", "by a basis")
@@ -54,7 +54,8 @@ PROBLEMS = {
     "momenta": (problem_of(TURNING), {"momenta": True}),
     "newton": (problem_of(HYPERBOLIC), {"momenta": True}),
     "indefinite": (typed(REGULAR[0]), {"momenta": True}),
-    "torus": (problem_of({"name": "fluid9", **FLUID}), {"conserved": True}),
+    "torus": (stirred_torus(9), {"conserved": True, "jacobian": JACOBIANS[:3]}),
+    "torus, written out": (stirred_torus(3), {"jacobian": JACOBIANS[:3]}),
     **{
         f"charts, {x}": (
             CHARTS[x][0],

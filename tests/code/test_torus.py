@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
+import derive
 from derive.code.options import Options
 from derive.pipeline import walk
 from derive.problem.toml import problem_of
@@ -83,6 +84,32 @@ def test_forcing_and_drag_are_added_to_plain_sums(N):
     close(found, m.rhs(0.0, several[0].T, k, several[1].T))
     assert m.PARAMETERS == ("kappa", "nu")
     assert m.INPUTS[:2] == ("f_re_1_0", "f_im_1_0")
+
+
+@pytest.mark.parametrize("N", [3, 5, 7, 9])
+def test_jacobians_are_the_derivatives_of_plain_sums(N):
+    """Of a form of degree 2 half a difference of values is the derivative; damping is linear in its
+    coefficients."""
+    need("cc")
+    chosen = {"jacobian": ("state", "inputs", "parameters")}
+    m, c = module_of(stirred(N), **chosen), derive.compile(stirred(N), **chosen)
+    x, u = np.random.default_rng(N).normal(size=(2, N * N - 1))
+    p, each = np.array([0.4, 0.07]), np.eye(N * N - 1)
+    c.use(p)
+    moved = [(torus.rates(N, x + e) - torus.rates(N, x - e)) / 2 for e in each]
+    by_state = np.transpose(moved) - np.diag(drag(N, *p))
+    by_parameters = np.transpose([-drag(N, *e) * x for e in np.eye(2)])
+    for rates, D in (m.jacobian(0.0, x, m.constants(p), u), c.jacobian(0.0, x, u)):
+        close(rates, torus.rates(N, x) - drag(N, *p) * x + u)
+        close(D, by_state)
+    for D in (m.jacobian_inputs(0.0, x, m.constants(p), u), c.jacobian_inputs(0.0, x, u)):
+        assert np.array_equal(D, each)
+    for D in (m.jacobian_parameters(0.0, x, p, u), c.jacobian_parameters(0.0, x, u)):
+        close(D, by_parameters)
+    several = np.stack([2 * x, x])
+    found = m.jacobian(0.0, several, m.constants(p), u)[1], m.jacobian_parameters(0.0, several, p)
+    close(found[0][1], by_state)
+    close(found[1], np.stack([2 * by_parameters, by_parameters]))
 
 
 @pytest.mark.parametrize("N", [5, 9])

@@ -276,9 +276,17 @@ def fluid(N):
     return {"name": "fluid", "algebra": algebra, "inertia": inertia}
 
 
-def in_a_field():
-    """A homogeneous fluid in a field of force."""
-    return walk(problem_of({"name": "well", "fluid": {"forces": "potential"}}))
+IN_FIELDS = {
+    "well": {"forces": "potential"},
+    "blown": {"forces": "given"},
+    "wind": {"density": "advected", "forces": "given"},
+}
+"""Fluids in a field of force, and on which any force acts."""
+
+
+def in_a_field(name):
+    """One of these."""
+    return walk(problem_of({"name": name, "fluid": IN_FIELDS[name]}))
 
 
 def walked(made):
@@ -293,7 +301,8 @@ READ |= {f"solids on {x}": SOLIDS.replace("GROUP", x) for x in SOLIDS_ON}
 ROADS = {
     "ready": {x: partial(ready_made_record, x) for x in READY if x not in (*FLUIDS, *STARS)},
     "star": {x: partial(ready_made_record, x) for x in STARS},
-    "fluid": {x: partial(ready_made_record, x) for x in FLUIDS} | {"well": in_a_field},
+    "fluid": {x: partial(ready_made_record, x) for x in FLUIDS}
+    | {x: partial(in_a_field, x) for x in IN_FIELDS},
     "moved": {x: partial(twin, x) for x in TWINS},
     "forces": walked({x: partial(read, y) for x, y in READ.items() if x.endswith("forces")}),
     "points": walked({x: partial(read, y) for x, y in READ.items() if not x.endswith("forces")})

@@ -72,6 +72,9 @@ class Numbers:
 
     def _place(self, index):
         shape = self.array.shape
+        if len(index) == 1 and len(shape) == 2 and type(index[0]) is int:  # column by column
+            column, row = divmod(index[0] - 1, shape[0])
+            index = row + 1, column + 1
         if len(index) != len(shape):
             raise JuliaError(f"{len(index)} indices in an array of {len(shape)}")
         for i, n in zip(index, shape, strict=True):

@@ -27,7 +27,7 @@ from derive.validate.torus.torus_files import (
     compare_loops,
     cosine,
 )
-from tests.support.corpus import STIRRED
+from tests.support.corpus import STIRRED, fluid
 from tests.support.emitted_files import ENDS, Emission
 from tests.support.needs import CC, need
 from tests.support.read_julia import Module, Numbers
@@ -55,9 +55,7 @@ LANGUAGES = ("c", "python", "julia", "rust", "javascript")
 
 @cache
 def stirred(N):
-    algebra, inertia = {"of": "torus", "N": N}, {"operator": "laplacian"}
-    data = {"name": "fluid", "algebra": algebra, "inertia": inertia, **STIRRED}
-    return Emission(data, LANGUAGES, conserved=True)
+    return Emission(fluid(N) | STIRRED, LANGUAGES, conserved=True)
 
 
 @pytest.mark.parametrize("N", [3, 7, 11])
@@ -68,6 +66,44 @@ def test_forcing_and_drag_equal_the_record(N):
         assert report.holds, report.text
     assert "rhs_batch" in reports[0].text
 
+
+JACOBIANS = ("jacobian", "jacobian_inputs", "jacobian_parameters")
+
+
+@cache
+def linearised(N):
+    data = fluid(N) | STIRRED | {"damping": [*STIRRED["damping"], CURVED]}
+    chosen = tuple(x.removeprefix("jacobian").strip("_") or "state" for x in JACOBIANS)
+    return Emission(data, LANGUAGES, jacobian=chosen)
+
+
+CURVED = {"kind": "laplacian", "coefficient": "kappa/nu^2 + 3*nu^6", "power": 1}
+"""A coefficient that no polynomial of a low degree is."""
+
+
+@pytest.mark.parametrize("N", [3, 7])
+def test_jacobians_equal_the_record(N):
+    for report in linearised(N).reports(fresh=linearised(N).files):
+        assert report.holds, report.text
+        assert ", ".join(JACOBIANS) in report.text
+
+
+OF_LINEARISED = [
+    ("fluid.c", "more_im - less_im", "more_im + less_im"),
+    ("fluid.c", "D[below] = less_im + more_im;", "D[below] = less_im;"),
+    ("fluid.c", "dx[at] = 0.5*rate_re;", "dx[at] = rate_re;"),
+    ("fluid.c", "D[(at + 1)*49] -= drag;", ""),
+    ("fluid.c", "at == row ? 1 : 0", "at == row ? 1 : 1"),
+    ("fluid.c", "D[here + 2] = -drag*x[at + 1];", "D[here + 2] = -drag*x[at];"),
+    ("fluid.c", "slopes[0] = 1.0;", "slopes[0] = 2.0;"),
+    ("fluid.rs", "(a + 7 - b) % 7", "(a + b) % 7"),
+    ("fluid.jl", "here = at + to * 48", "here = at + to * 24"),
+    ("fluid.mjs", "inverse[more_d][more_a] - ", "inverse[more_d][more_a] + "),
+    ("fluid.py", "other = n - sign * m", "other = n + sign * m"),
+    ("fluid.py", "-14 * sign", "14 * sign"),
+    ("fluid.py", "less - drag[..., None]", "less + drag[..., None]"),
+    ("fluid.py", "[xp.imag(a), -xp.real(b)]", "[xp.imag(a), xp.real(b)]"),
+]
 
 OF_STIRRED = [
     ("fluid.c", "dx[at] += u[at];", "dx[at] -= u[at];"),
@@ -87,9 +123,12 @@ OF_STIRRED = [
 ]
 
 
-@pytest.mark.parametrize(("name", "old", "new"), OF_STIRRED)
-def test_other_forcing_and_drag_are_refused(name, old, new):
-    made = stirred(11)
+@pytest.mark.parametrize(
+    ("made", "name", "old", "new"),
+    [(stirred, *x) for x in OF_STIRRED] + [(linearised, *x) for x in OF_LINEARISED],
+)
+def test_other_forcing_drag_and_jacobians_are_refused(made, name, old, new):
+    made = made(11 if made is stirred else 7)
     assert made.files[name].count(old) == 1
     text = made.files[name].replace(old, new)
     known = TorusClaims(made.record, "", made.program.numbers())

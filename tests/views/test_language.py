@@ -142,7 +142,7 @@ OF_THE_CORPUS = [
     *("symmetries spherical_pendulum", "torus stirred"),
     *(f"reduced {x}" for x in ("lagrange_top", "charged_body", "flat", "steep", "rod", "so3")),
     *(f"discrete {x}" for x in ("so3", "se3", "sl3", "gl3", "sp4", "GL(3)", "SE(3)")),
-    *("torus 3", "fluid well"),
+    *("torus 3", "fluid well", "fluid wind"),
 ]
 """Records that together have all sentences with the ready-made ones and these:"""
 QUOTIENT = {

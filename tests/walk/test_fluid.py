@@ -15,7 +15,6 @@ from derive.check.fluid.fluid_spaces import FlatTorus
 from derive.command.showing import load_problem
 from derive.language.tree import names as names_in
 from derive.pipeline import walk
-from derive.problem.toml import problem_of
 from derive.walk.chapter import WalkError
 from derive.walk.fluid import circulation
 from derive.walk.fluid.fluid_kernel import GRADIENT
@@ -79,12 +78,22 @@ FALLING = {"V": x * (x**2 - 3 * y), "f": sympy.Matrix([3 * y - 3 * x**2, 3 * x])
 BORNE = {"p": TURNING["p"] - FALLING["V"]}
 HANGING = {"V": (x**2 + y**2) ** 2, "p": (x**2 + y**2) / 2 + (x**2 + y**2) ** 2 / 4}
 HANGING["p"] -= (x**2 + y**2) ** 2 + 2 * (x**2 + y**2) ** 3 / 3
-WELL = {"name": "well", "fluid": {"forces": "potential"}}
+t, s = sympy.symbols("t s")
+SPUN = {  # as a solid, faster and faster, by a force that is no gradient
+    "u": t * TURNING["u"],
+    "u̇": TURNING["u"],
+    "n": TURNING["n"],
+    "f": TURNING["u"] - FALLING["f"],
+    "p": t**2 * TURNING["p"] + FALLING["V"],
+    "angle": t**2 / 2,
+}
+WHIRLED = SPUN | {"ρ": 1 + x**2 + y**2, "f": TURNING["u"] + 2 * TURNING["n"]}
+WHIRLED["p"] = (t**2 + 2) * ((x**2 + y**2) / 2 + (x**2 + y**2) ** 2 / 4)
 
 
 @cache
 def of(name):
-    """The record of a ready-made problem, or of a homogeneous fluid in a field of force."""
+    """The record of a ready-made problem, or of a fluid in a field of force."""
     return corpus.record(f"fluid {name}")
 
 
@@ -115,9 +124,11 @@ STRATIFIED = {"ρ": 1 + x**2 + y**2, "p": (x**2 + y**2) / 2 + (x**2 + y**2) ** 2
             TURNING | STRATIFIED | HANGING,
             ["pressure.3", f"{ELLIPTIC}.1", f"{ELLIPTIC}.2", "boundary.2"],
         ),
+        ("blown", SPUN, ["pressure.3", f"{ELLIPTIC}.2", "boundary.2"]),
+        ("wind", WHIRLED, ["pressure.3", f"{ELLIPTIC}.1", "boundary.2"]),
     ],
 )
-def test_known_steady_flows(name, names, keys):
+def test_known_flows(name, names, keys):
     for key in keys:
         label, k = key.split(".")
         equation = of(name)[label].equations[int(k) - 1]
@@ -125,16 +136,14 @@ def test_known_steady_flows(name, names, keys):
         assert vanishes(both[0] - both[1]), key
 
 
-t, s = sympy.symbols("t s")
-TURN = sympy.Matrix([[sympy.cos(t), -sympy.sin(t)], [sympy.sin(t), sympy.cos(t)]])
-"""The motion of the fluid that turns, of its places and of any curve in it."""
 CIRCLE = sympy.Matrix([2 * sympy.cos(s), 2 * sympy.sin(s)])
 ELLIPSE = sympy.Matrix([1 + sympy.cos(s), 3 * sympy.sin(s) - sympy.cos(s)])
 
 
 def on_curve(tree, names, start):
     """The value of a tree in what is along a curve that turns with the fluid."""
-    place = TURN * start
+    a = names.get("angle", t)
+    place = sympy.Matrix([[sympy.cos(a), -sympy.sin(a)], [sympy.sin(a), sympy.cos(a)]]) * start
 
     def along(f):
         return sympy.sympify(f).subs(dict(zip(PLACE, place, strict=True)), simultaneous=True)
@@ -171,6 +180,8 @@ def on_curve(tree, names, start):
         ("well", TURNING | FALLING | BORNE, ELLIPSE),
         ("inhomogeneous_fluid", TURNING | STRATIFIED, CIRCLE),
         ("stratified_fluid", TURNING | STRATIFIED | HANGING, CIRCLE),
+        ("blown", SPUN, ELLIPSE),
+        ("wind", WHIRLED, CIRCLE),
     ],
 )
 def test_circulation_along_a_known_curve(name, names, start):
@@ -227,6 +238,17 @@ def test_density_and_energy_of_a_known_motion():
         assert left == pytest.approx(right, rel=1e-12)
 
 
+def test_a_force_that_is_given_works():
+    """One that is the acceleration of the points, without a pressure."""
+    names = sheared()
+    names["h̃"] -= names["Ũ"]
+    names["f"] = names["u̇"] + names["u"].jacobian(PLACE) * names["u"]
+    last = of("wind")["energy_kept"].equations[-1]
+    rate, power = (over_the_torus(z, names) for z in (last.lhs, last.rhs))
+    assert abs(rate) > 1e-3
+    assert rate == pytest.approx(power, rel=1e-12)
+
+
 @pytest.mark.parametrize(
     ("where", "what", "words"),
     [
@@ -274,12 +296,12 @@ def test_where_the_density_is_the_same_the_pressure_alone_sees_a_force():
     assert {x.partition(".")[2] for x in passed} == FORCE_AT_WORK
 
 
-@pytest.mark.parametrize("name", [*FLUIDS, "well"])
+@pytest.mark.parametrize("name", [*FLUIDS, *corpus.IN_FIELDS])
 def test_a_wrong_structure_equation_leads_nowhere(name, monkeypatch):
     right = calculus.structure_equation
     monkeypatch.setattr(calculus, "structure_equation", lambda *a: -right(*a))
     with pytest.raises(WalkError, match="divergence of the acceleration"):
-        walk(problem_of(WELL) if name == "well" else load_problem(name))
+        corpus.in_a_field(name) if name in corpus.IN_FIELDS else walk(load_problem(name))
 
 
 def test_a_pair_along_a_curve_is_read_either_way():

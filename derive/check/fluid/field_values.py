@@ -378,7 +378,7 @@ NAMES: dict[str, Callable[[Any], Value]] = {
     "U": lambda v: _potential(v.model),
     "Ũ": lambda v: _potential(v.model),
     "V": lambda v: v.model.V,
-    "f": lambda v: tuple(-x for x in gradient(v.model.V)),
+    "f": lambda v: tuple(v.model.force),
     "L": lambda v: _lagrangian(v.model),
     "L̃": lambda v: _lagrangian(v.model),
     "h̃": lambda v: part(v.model.energy(_points(v.model, 0)), 0),

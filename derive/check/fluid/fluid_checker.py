@@ -254,8 +254,10 @@ class FluidChecker:
     def degree_if_true(self, step: Step) -> int:
         """One more than the degree of a step whose claims all hold; ``RefusedError`` or another
         error where one does not."""
-        if step.scope != self.problem["group"] or step.driven:
-            raise RecordError("the steps of a fluid are about its group, without inputs")
+        if step.scope != self.problem["group"]:
+            raise RecordError("the steps of a fluid are about its group")
+        if step.driven and self.problem["fluid"]["forces"] != "given":
+            raise RecordError("no force is given that acts from outside")
         if reason := hypothesis_fault(step):
             raise RecordError(reason)
         found = 0
@@ -307,7 +309,7 @@ def locus_of(step: Step, equation: Equation | None = None) -> FluidLocus:
         raise RecordError("δ′t = 0 and η′ = 0 are given together")
     free = equation is not None and not ACCELERATIONS.isdisjoint(equation.for_all)
     flags = dict.fromkeys(told - {"δ′t"}, True)
-    return FluidLocus(**flags, free=free or step.kind in OFF_MOTION)
+    return FluidLocus(**flags, free=free or step.kind in OFF_MOTION, driven=step.driven)
 
 
 def ill_formed(equation: Equation, step: Step) -> str:

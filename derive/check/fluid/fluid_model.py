@@ -22,7 +22,8 @@ class FluidLocus:
     """The points at which a step is to hold. ``contracted``: δt = 1, and X is the vector of δ;
     ``vertical``: δ′t = 0 and η′ = 0; ``along``: η(X) = u; ``lift``: X is the tangent of any lift,
     and the vector of δ′; ``free``: u̇ is any field of the algebra, and that of X; ``level``: ϑ
-    leaves the density alone; ``one_level``: the curve is one of a level of the density."""
+    leaves the density alone; ``one_level``: the curve is one of a level of the density; ``driven``:
+    a force acts that is given."""
 
     contracted: bool = False
     vertical: bool = False
@@ -31,6 +32,7 @@ class FluidLocus:
     free: bool = False
     level: bool = False
     one_level: bool = False
+    driven: bool = False
 
 
 @dataclass(frozen=True)
@@ -52,6 +54,7 @@ class FluidModel:
         self.one = Function(space, {(0,) * space.length: Fraction(1)})
         self.theta = space.layered(draw) if at.one_level else space.level(draw)
         self.V = space.energy(draw) if forced else self.one * 0
+        self.force = space.any_field(draw) if at.driven else [-x for x in gradient(self.V)]
         self.u = self.solenoidal()
         self.first = FluidVariation(self.number(), self.solenoidal(), self.solenoidal())
         self.second = FluidVariation(self.number(), self.solenoidal(), self.solenoidal())
@@ -247,10 +250,10 @@ class FluidModel:
 
     @cached_property
     def motion(self) -> tuple[Fields, Any]:
-        """u̇ and p: the acceleration of the points is −grad p/ρ − grad V, and u̇ is of the algebra,
-        by d'Alembert's principle; order by order in s."""
+        """u̇ and p: the acceleration of the points is f − grad p/ρ, and u̇ is of the algebra, by
+        d'Alembert's principle; order by order in s."""
         space, sigma = self.space, self.inverse_density
-        falling = [x + y for x, y in zip(self.material, gradient(self.V), strict=True)]
+        falling = [x - y for x, y in zip(self.material, self.force, strict=True)]
         p = self.one * 0
         for _ in range(ORDERS if self.advected else 1):
             rest = tuple(

@@ -219,6 +219,123 @@ def rhs(t: real, x: real[N_STATE], k: real[N_CONSTANTS], u: real[N_INPUTS], dx: 
                 dx[at + 1] += u[at + 1]
 
 
+def jacobian(
+    t: real,
+    x: real[N_STATE],
+    k: real[N_CONSTANTS],
+    u: real[N_INPUTS],
+    dx: out[real[N_STATE]],
+    D: out[real[N_STATE * N_STATE]],
+):
+    """What the rate at n changes by: c(m) omega(n - m) times a change of omega(m), for m and -m, whose changes
+    are conjugates.  The bracket, a form of degree 2, is half of what its derivative takes x to."""
+    re: real[N, N]  # omega by its coordinates modulo N, n2 first
+    im: real[N, N]
+    inverse: real[N, N]  # 1/|n|^2
+    re[0][0] = 0.0
+    im[0][0] = 0.0
+    inverse[0][0] = 0.0
+    for d in range(M):
+        first: index = 0 if d > 0 else M
+        for j in range(first, N):
+            size: index = HALF - j if j < HALF else j - HALF
+            at: index = 2 * (d * N + j - M)
+            a: index = (j + M) % N
+            other_d: index = (N - d) % N
+            other_a: index = (N - a) % N
+            re[d][a] = x[at]
+            im[d][a] = x[at + 1]
+            inverse[d][a] = 1.0 / real(d * d + size * size)
+            re[other_d][other_a] = x[at]
+            im[other_d][other_a] = -x[at + 1]
+            inverse[other_d][other_a] = inverse[d][a]
+    for d in range(M):
+        first: index = 0 if d > 0 else M
+        for j in range(first, N):
+            at: index = 2 * (d * N + j - M)
+            a: index = (j + M) % N
+            rate_re: var[real] = 0.0
+            rate_im: var[real] = 0.0
+            for e in range(M):
+                start: index = 0 if e > 0 else M
+                for i in range(start, N):
+                    to: index = 2 * (e * N + i - M)
+                    b: index = (i + M) % N
+                    less_d: index = (d + N - e) % N  # n - m
+                    less_a: index = (a + N - b) % N
+                    more_d: index = (d + e) % N  # n + m
+                    more_a: index = (a + b) % N
+                    # N/2 pi is 2 N of 1/4 pi
+                    scaled: real = -2.0 * SIZE * SCALE * sines[(b * d + (N - a) * e) % N]
+                    less: real = scaled * (inverse[e][b] - inverse[less_d][less_a])
+                    more: real = scaled * (inverse[more_d][more_a] - inverse[e][b])
+                    less_re: real = less * re[less_d][less_a]
+                    less_im: real = less * im[less_d][less_a]
+                    more_re: real = more * re[more_d][more_a]
+                    more_im: real = more * im[more_d][more_a]
+                    here: index = at * DOWN + to * ALONG
+                    below: index = here + DOWN
+                    D[here] = less_re + more_re
+                    D[here + ALONG] = more_im - less_im
+                    D[below] = less_im + more_im
+                    D[below + ALONG] = less_re - more_re
+                    rate_re += D[here] * x[to] + D[here + ALONG] * x[to + 1]
+                    rate_im += D[below] * x[to] + D[below + ALONG] * x[to + 1]
+            dx[at] = 0.5 * rate_re
+            dx[at + 1] = 0.5 * rate_im
+            if DAMPED:
+                size: index = HALF - j if j < HALF else j - HALF
+                drag: var[real] = 0.0
+                for p in range(POWERS):
+                    drag = drag * real(d * d + size * size) + k[POWERS - 1 - p]
+                dx[at] -= drag * x[at]
+                dx[at + 1] -= drag * x[at + 1]
+                D[at * (DOWN + ALONG)] -= drag
+                D[(at + 1) * (DOWN + ALONG)] -= drag
+            if DRIVEN:
+                dx[at] += u[at]
+                dx[at + 1] += u[at + 1]
+
+
+def jacobian_inputs(
+    t: real,
+    x: real[N_STATE],
+    k: real[N_CONSTANTS],
+    u: real[N_INPUTS],
+    D: out[real[N_STATE * N_INPUTS]],
+):
+    """Each input is added to the rate of its own number."""
+    for row in range(WIDTH):
+        for at in range(WIDTH):
+            D[row * WIDTH + at] = 1.0 if at == row else 0.0
+
+
+def jacobian_parameters(
+    t: real,
+    x: real[N_STATE],
+    p: real[N_PARAMETERS],
+    u: real[N_INPUTS],
+    D: out[real[N_STATE * N_PARAMETERS]],
+):
+    """Damping takes sum c_i |n|^(2i) omega(n); slopes are the derivatives of c_i by the parameters."""
+    slopes: real[SLOPES]
+    written("slopes")
+    for d in range(M):
+        first: index = 0 if d > 0 else M
+        for j in range(first, N):
+            size: index = HALF - j if j < HALF else j - HALF
+            at: index = 2 * (d * N + j - M)
+            for q in range(PARAMETERS):
+                drag: var[real] = 0.0
+                for n in range(POWERS):
+                    drag = (
+                        drag * real(d * d + size * size) + slopes[(POWERS - 1 - n) * PARAMETERS + q]
+                    )
+                here: index = at * DOWN_PARAMETERS + q * ALONG
+                D[here] = -drag * x[at]
+                D[here + DOWN_PARAMETERS] = -drag * x[at + 1]
+
+
 def energy(t: real, x: real[N_STATE], k: real[N_CONSTANTS]) -> real:
     """The sum of |omega(n)|^2/|n|^2 over half of the lattice."""
     total: var[real] = 0.0

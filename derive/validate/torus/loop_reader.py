@@ -42,6 +42,8 @@ class LoopReader(Reader):
     numbers."""
 
     products = PRODUCTS
+    by_columns = False
+    """Has a matrix its columns one after the other?"""
 
     def __init__(self, *given: Any):
         super().__init__(*given)

@@ -138,7 +138,9 @@ REALS = ("Float64", "Float32")
 
 class JuliaLoopReader(LoopReader):
     """The reader of Julia, where a name is declared by what it becomes first: one that begins as a
-    decimal varies, others are constants."""
+    decimal varies, others are constants; D is a matrix."""
+
+    by_columns = True
 
     def naming(self) -> str:
         """A name, also of a function that writes what it is given."""
@@ -262,8 +264,12 @@ class JuliaLoopReader(LoopReader):
         return super()._entry()
 
     def _within(self, found: Expression) -> Expression:
-        """An entry of an array, by all its places."""
+        """An entry of an array, by all its places, of D column by column."""
         if self.took("["):
-            for place in self.listed("]"):
+            first, *others = self.listed("]")
+            if found == ("var", "D") and others:
+                rows = ("int", int(self.values.get("N_STATE", 0)))
+                first = ("add", first, ("mul", rows, ("sub", others.pop(), ("int", 1))))
+            for place in (first, *others):
                 found = ("item", found, ("sub", place, ("int", 1)))
         return found

@@ -12,22 +12,26 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from copy import copy
 from dataclasses import replace
 from fractions import Fraction
-from functools import reduce
+from functools import cached_property, reduce
+from operator import mul
 from pathlib import PurePath
 from random import Random
 from types import ModuleType
 from typing import Any
 
+import numpy as np
+
 from ...algebra.structure import Place, TorusLattice
 from ...check.fluid.torus_model import TorusModel, environment, torus_of
-from ...check.values.arithmetic import EvaluationError
-from ...check.values.evaluate import evaluate
+from ...check.values.arithmetic import EvaluationError, Varying, slopes_of
+from ...check.values.evaluate import Environment, evaluate
 from ...check.values.residue import Residue
 from ...language import rational as q
 from ...language.intervals import function, pi
-from ...language.tree import nodes
+from ...language.tree import Tree, nodes
 from ...record.as_json import to_json
 from ...record.record import Derivation
 from ..compare import SIZE, Agreement
@@ -114,32 +118,62 @@ numbers of the state are multiplied at most, over π.  The degree of C is measur
 
 class TorusClaims:
     """What a record says at one point, the state ``x``, with the inputs ``u`` and the
-    ``parameters`` by their names: ``rates``, ``energy``, ``traces``."""
+    ``parameters`` by their names: ``rates``, ``energy``, ``traces``, and by ``slopes`` what the
+    rates change by."""
 
     def __init__(self, d: Derivation, text: str, given: Iterable[Fraction] = ()):
         self.torus = torus_of(d.problem)
         drawn = hashlib.sha256((to_json(d) + text).encode("utf-8", "surrogatepass")).hexdigest()
         motion = d["motion"]
         self.model = TorusModel(
-            self.torus, Random(drawn), SIZE, problem=d.problem, driven=motion.driven
+            self.torus, Random(drawn), SIZE, free=True, problem=d.problem, driven=motion.driven
         )
+        self.motion: Tree = motion.equations[0].rhs
         self.p, env = self.model.roots.p, environment(self.model)
         self.number = ExactNumbers(self.model, tuple(given))
-        vorticity = motion.equations[0]
-        at = {n: i for i, n in enumerate(self.torus.places, 1)}
-        self.x = self.parts({n: self.model.vorticity[n] for n in at})
+        self.x = self.parts(self.model.vorticity)
         numbers = self.parts(self.model.input) if self.model.input else []
         called = [f"{x['name']}_{y}" for x in d.problem["inputs"] for y in self.names]
         self.u = dict(zip(called, numbers, strict=True))
-        read = {x[1] for x in nodes(vorticity.rhs) if isinstance(x, tuple) and x[0] == "par"}
+        read = {x[1] for x in nodes(self.motion) if isinstance(x, tuple) and x[0] == "par"}
         known = self.model.parameters.items()
         self.parameters = {x: self.residue(value) for x, value in known if x in read}
-        self.rates = self.parts(
-            {n: evaluate(vorticity.rhs, env.with_index("𝐧", i)) for n, i in at.items()}
-        )
+        self.rates = self.parts(self._at_places(self.motion, env))
         self.energy = self.residue(evaluate(d["energy"].equations[0].rhs, env))
         powers = (reduce(q.times, [self.model.W] * k) for k in POWERS)
         self.traces = [self.residue(q.trace(x) * Fraction(1, self.torus.N)) for x in powers]
+
+    def _at_places(self, t: Tree, env: Environment) -> dict[Place, Any]:
+        """What a tree is at all points."""
+        places = enumerate(self.torus.places, 1)
+        return {n: evaluate(t, env.with_index("𝐧", i)) for i, n in places}
+
+    @cached_property
+    def slopes(self) -> dict[str, tuple[list[int], list[int]]]:
+        """By a Jacobian a random change of what it is by, and what the rates change by: another
+        matrix takes the one to the other with probability 1/p."""
+        model, env, here = self.model, environment(self.model), copy(self.model)
+        grid, N = model.coefficients(model.rate), self.torus.N
+        moved = {(a, b): grid[a % N][b % N] for a, b in self.torus.places}
+        pushed = {n: model.draw() for n in self.torus.places}
+        if model.input:
+            here.input = {n: Varying(x, [pushed[n]]) for n, x in model.input.items()}
+        turned = {x: model.draw() for x in self.parameters}
+        known = {x: Varying(y, [turned.get(x, 0)]) for x, y in model.parameters.items()}
+        zero = model.roots.i * 0
+        by_inputs, by_parameters = (
+            {n: zero + slopes_of(x, 1)[0] for n, x in self._at_places(self.motion, there).items()}
+            for there in (environment(here), replace(environment(model), parameters=known))
+        )
+        by_state = self._at_places(("call", "d/dt", self.motion), env)
+        return {
+            "jacobian": (self.parts(moved), self.parts(by_state)),
+            "jacobian_inputs": (self.parts(pushed), self.parts(by_inputs)),
+            "jacobian_parameters": (
+                [*map(self.residue, turned.values())],
+                self.parts(by_parameters),
+            ),
+        }
 
     def residue(self, x: Any) -> int:
         """A number as an integer modulo p."""
@@ -168,6 +202,7 @@ class TorusClaims:
         return self.torus.coefficients
 
 
+JACOBIANS = ("jacobian", "jacobian_inputs", "jacobian_parameters")
 Call = Callable[[str, Sequence[int]], Sequence[int]]
 """The numbers that a function of a file gives at a state."""
 
@@ -181,15 +216,33 @@ def agreement(claims: TorusClaims, call: Call, has: Callable[[str], bool]) -> Ag
         "conserved": [f"trace_{k}" for k in POWERS],
     }
     functions = [x for x in wanted if x != "conserved" or has(x)]
-    for f in functions:
+    linearised = [x for x in JACOBIANS if has(x)]
+    for f in (*functions, *linearised):
         found = call(f, claims.x)
+        if f in linearised:
+            _require_matrix(f, found, claims)
+            continue
         if len(found) != len(wanted[f]):
             raise DiffersError(f"{f}: {len(found)} numbers, the record has {len(wanted[f])}")
         for name, x, y in zip(names[f], found, wanted[f], strict=True):
             if x != y:
                 raise DiffersError(f"{f}: {name} differs from the record's")
     rounded = tuple(sorted(claims.number.rounded))
-    return Agreement(("constants", *functions), 1, 2 * DEGREE / SIZE, rounded, ())
+    return Agreement(("constants", *functions, *linearised), 1, 2 * DEGREE / SIZE, rounded, ())
+
+
+def _require_matrix(f: str, found: Sequence[int], claims: TorusClaims) -> None:
+    """``DiffersError`` for a Jacobian that is not the record's; the rates stand before that of the
+    state."""
+    v, wanted = claims.slopes[f]
+    rates = list(found[: len(wanted)]) if f == "jacobian" else []
+    D = found[len(rates) :]
+    if len(D) != len(wanted) * len(v) or (rates and rates != claims.rates):
+        raise DiffersError(f"{f}: its rates, or its size, differ from the record's")
+    for i, (name, y) in enumerate(zip(claims.names, wanted, strict=True)):
+        row = D[i * len(v) : (i + 1) * len(v)]
+        if (sum(map(mul, row, v)) - y) % claims.p:
+            raise DiffersError(f"{f}: the derivatives of the rate of {name} differ")
 
 
 # -- loops, read -------------------------------------------------------------------------------
@@ -227,15 +280,21 @@ def compare_loops(
     reader.written(k, size, "k")
     t = Measured(Random(claims.p).randrange(claims.p), 1)
 
+    p, u = measured([*claims.parameters.values()]), measured([*claims.u.values()])
+
     def call(f: str, x: Sequence[int]) -> Sequence[int]:
-        given, out = measured(x), Cells([dimension if f == "rhs" else len(POWERS)])
+        given, acting = measured(x), [u] * (f != "conserved")
         if f == "energy":
             return reader.numbers([reader.call(f, t, given, k)])
-        if f == "rhs":
-            reader.call(f, t, given, k, measured([*claims.u.values()]), out)
-        else:
-            reader.call(f, t, given, k, out)
-        return reader.written(out, dimension if f == "rhs" else len(POWERS), f)
+        columns = len(claims.slopes[f][0]) if f in JACOBIANS else 0
+        out = [Cells([len(POWERS) if f == "conserved" else dimension])]
+        if columns:
+            out = [*out * (f == "jacobian"), Cells([dimension * columns])]
+        reader.call(f, t, given, p if f == "jacobian_parameters" else k, *acting, *out)
+        *before, found = (reader.written(y, y.size, f) for y in out)
+        if columns and text.by_columns:
+            found = [found[i + dimension * j] for i in range(dimension) for j in range(columns)]
+        return [y for x in (*before, found) for y in x]
 
     found = agreement(claims, call, lambda f: f in module.functions)
     if "rhs_batch" in module.functions:
@@ -303,15 +362,17 @@ def agreement_of_module(module: Any, claims: TorusClaims) -> Agreement:
     library = ExactLibrary(claims.p, claims.number, claims.elementary)
 
     _require_lists([module.STATE, module.PARAMETERS, module.INPUTS], {}, claims)
-    u = library.asarray([*claims.u.values()], object)
+    u, p = (library.asarray([*x.values()], object) for x in (claims.u, claims.parameters))
     try:
-        k = module.constants(library.asarray([*claims.parameters.values()], object))
+        k = module.constants(p)
 
         def call(f: str, x: Sequence[int]) -> Sequence[int]:
             given = (library.asarray(y, object) for y in (x, [x[::-1], x]))
-            acting = [u] if f == "rhs" and claims.u else []
+            acting = [u] if f not in ("energy", "conserved") and claims.u else []
+            by = p if f == "jacobian_parameters" else k
             found, several = (
-                library.asarray(getattr(module, f)(0.0, y, k, *acting)) for y in given
+                library.asarray(_in_a_row(getattr(module, f)(0.0, y, by, *acting), y.shape[:-1]))
+                for y in given
             )
             parts = [(z.re, z.im) for z in found.ravel()]
             if any(im for _, im in parts):
@@ -326,6 +387,12 @@ def agreement_of_module(module: Any, claims: TorusClaims) -> Agreement:
         if isinstance(error, CodeError):
             raise
         raise CodeError(f"it does not run with exact arrays: {error}") from None
+
+
+def _in_a_row(found: Any, batch: tuple[int, ...]) -> Any:
+    """The numbers of an array, or of several, for each state of a batch."""
+    parts = found if isinstance(found, tuple) else (found,)
+    return np.concatenate([np.reshape(x, (*batch, -1)) for x in parts], axis=-1)
 
 
 def _require_lists(

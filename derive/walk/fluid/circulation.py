@@ -103,7 +103,8 @@ def energy(stage: FluidKernel, form: Cartan, a: FluidAlphabet, c: Chapter) -> St
     else:
         told.append(Equation(read("⟨u, ∇_u u⟩"), draft.tree(inner(u, turned))))
     changed = derivation(form.energy, images.get)
-    if changed != inner(u, stage.force):
+    power = inner(u, a.volume * word(a.force)) if a.given else zero()
+    if changed - power != inner(u, stage.force):
         raise ValueError("the rate of the energy is not what the kernel pairs with u")
     # along the motion ``stage.force`` is D̄p, and f is D̄V where the density is the same everywhere
     still = pair_rule((a.D, False), (a.w.velocity, False), zero("k", 1))
@@ -124,9 +125,9 @@ def energy(stage: FluidKernel, form: Cartan, a: FluidAlphabet, c: Chapter) -> St
             *told,
             Equation(rated, shown, (rate.name,)),
             Equation(draft.tree(inner(word(GRADIENT), u), SHOWN), draft.tree(-idle)),
-            Equation(rated, draft.tree(idle)),
+            Equation(rated, draft.tree(idle + power, trees(a))),
         ),
-        say("energy_kept.kernel")
+        say("energy_kept.power" if a.given else "energy_kept.kernel")
         + say(f"energy_kept.{'advected' if a.advected else 'homogeneous'}")
         + (say(f"energy_kept.{'forced' if a.advected else 'absorbed'}") if a.forced else ())
         + say("energy_kept.pressure"),
@@ -162,7 +163,8 @@ def circulation(
     driven = substitute(stage.balance, {w.xi_prime: carried})
     inert = without(driven, a.force)
     keeping.depends_on(driven, points.potential, changed, word(a.C).marked(c.label("skew")))
-    left = skew_part(changed - inert, a) + work_on(driven - inert, a)
+    work = inert - driven if a.given else zero()
+    left = skew_part(changed - inert, a) + work_on(driven - inert + work, a)
     if left:
         raise ValueError("the circulation is not kept")
     moved = word(w.acceleration) + word(along(w.velocity)) * u
@@ -173,10 +175,9 @@ def circulation(
     second = keeping.step(
         (
             Equation(rated, pushed, (w.acceleration.name,)),
-            Equation(rated, 0),
+            Equation(rated, keeping.tree(work, trees(a))),
         ),
-        say(f"circulation.{'advected' if a.advected else 'homogeneous'}")
-        + (say("circulation.potential") if a.forced else ()),
+        say(f"circulation.{_kind(a)}") + (say("circulation.potential") if a.forced else ()),
         where=given,
     )
     return first, second
@@ -318,7 +319,9 @@ def _conserved(stage: FluidKernel, points: Points, a: FluidAlphabet, c: Chapter)
     pushed, left = (reduce(curve * x, on_level(a)) for x in (push + driving, inert))
     scaled = word(LEVEL) * changed if a.advected else changed
     gradients = (along_curve(x) for x in (GRADIENT, GRADIENT_OF_V))
-    if scaled != inner(left, word(TANGENT)) or reduce(inner(pushed, word(TANGENT)), *gradients):
+    work = inner(curve * word(a.force), word(TANGENT)) if a.given else zero()
+    rest = reduce(inner(pushed, word(TANGENT)), *gradients)
+    if scaled != inner(left, word(TANGENT)) or rest != (word(LEVEL) * work if a.advected else work):
         raise ValueError("the circulation along a curve is not kept")
     draft.depends_on(changed.marked(c.label("closed_curve")))
     if a.advected:
@@ -338,8 +341,13 @@ def _conserved(stage: FluidKernel, points: Points, a: FluidAlphabet, c: Chapter)
             Equation(("call", "d/dt", TANGENT.name), draft.tree(images[TANGENT])),
             Equation(written(left), draft.tree(pushed, SHOWN)),
             Equation(rated, written(changed), (rate.name,)),
-            Equation(rated, 0),
+            Equation(rated, draft.tree(work)),
         ),
-        say(f"kelvin.{'advected' if a.advected else 'homogeneous'}"),
+        say(f"kelvin.{_kind(a)}"),
         where=(one_level(a),) if a.advected else (),
     )
+
+
+def _kind(a: FluidAlphabet) -> str:
+    """The density, as a part of a key; or that a force is given, where all is said of it."""
+    return "force" if a.given else "advected" if a.advected else "homogeneous"

@@ -45,11 +45,12 @@ from ..spine.lagrangian import kinetic_energy
 
 class FluidAlphabet(Alphabet):
     """The letters of a problem of this name; ``advected``: the density varies from place to place,
-    and ḠG is the product with it, else 1; ``forced``: per unit mass, f = −grad V acts."""
+    and ḠG is the product with it, else 1; ``forced``: per unit mass, f = −grad V acts; ``given``: f
+    is any field, from outside dϖ."""
 
-    def __init__(self, name: str, *, advected: bool, forced: bool):
+    def __init__(self, name: str, *, advected: bool, forced: bool, given: bool):
         super().__init__("n", affine=True)
-        self.name, self.advected, self.forced = name, advected, forced
+        self.name, self.advected, self.forced, self.given = name, advected, forced, given
         operator = [Letter(x, self.n, self.n) for x in self._part("G", "Ġ")]
         field = [Letter(x, self.n) for x in self._part("g", "ν")]
         self.A, self.T = SpacePart("Ġ", *operator), SpacePart("ġ", *field)
@@ -107,7 +108,7 @@ GRADIENT_OF_V = Letter("grad V", "n")
 @dataclass(frozen=True)
 class Points:
     """``lagrangian``: L̃ = ½⟨ν, ν⟩ − Ũ on words, by the velocity of all the points together;
-    ``work``: −dŨ(δg); ``potential``: f = −grad V, told by its step."""
+    ``work``: −dŨ(δg); ``potential``: f = −grad V, told by its step, or f as it is."""
 
     lagrangian: Expr
     work: Expr
@@ -146,7 +147,7 @@ def points(a: FluidAlphabet, c: Chapter) -> Points:
         ),
     )
     if not a.forced:
-        return Points(acting.mark(moving), zero(), zero(a.n, 1), steps)
+        return Points(acting.mark(moving), zero(), word(a.force), steps)
     work, force, pulling = _force(a, c)
     return Points(acting.mark(moving), work, force, (*steps, pulling))
 

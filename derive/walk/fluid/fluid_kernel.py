@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from ...algebra.calculus import (
     PairRule,
@@ -18,7 +18,7 @@ from ...algebra.calculus import (
 from ...algebra.word_trees import PLAIN, WordNotation, with_derivatives
 from ...algebra.words import Expr, Factor, Letter, inner, one, trace, word, zero
 from ...language.read import read
-from ...language.tree import add, neg
+from ...language.tree import Tree, add, neg
 from ...record.record import Equation, Step, stated
 from ..chapter import Chapter, say
 from ..matrices.coordinates import factored_tree
@@ -95,6 +95,20 @@ def kernel(stage: Exterior, principle: Principle, a: FluidAlphabet, c: Chapter) 
     )
     balance = draft.mark(balance)
     return FluidKernel(balance, gradient(balance, w.xi_prime), (first, second, third, last))
+
+
+def forcing(stage: FluidKernel, a: FluidAlphabet, c: Chapter) -> FluidKernel:
+    """A force that is given, by the principle of d'Alembert: the step ``forcing``."""
+    if not a.given:
+        return replace(stage, steps=())
+    draft, w = c.draft("forcing", "kernel"), a.w
+    balance = stage.balance - inner(word(w.xi_prime), a.volume * word(a.force))
+    force = gradient(balance, w.xi_prime)
+    moved = word(w.acceleration) + word(a.Z.velocity) * word(w.velocity) - word(a.force)
+    core = terms_with(balance, w.acceleration)
+    shown = factored_tree(draft, balance, core, {w.acceleration: moved}, trees(a))
+    step = draft.step((Equation(shown, 0, (w.xi_prime.name,)),), say("forcing.fluid"))
+    return FluidKernel(draft.mark(balance), draft.mark(force), (step,))
 
 
 # The principle for a fluid: a lift is an extremal of the action if and only if its tangent is in
@@ -264,7 +278,10 @@ def _poisson(
         of_V = strip(spread, a.D)
         known.append(Equation(read("ΔV"), ("call", "div", draft.tree(of_V, SHOWN))))
         value = add(value, read("ΔV"))
-    return draft.step((*known, Equation(left, value)), say(f"pressure_equation.{_kind(a)}"))
+    elif a.given:
+        value = add(value, neg(("call", "div", draft.tree(-strip(spread, a.D)))))
+    kind = "force" if a.given else "advected" if a.advected else "homogeneous"
+    return draft.step((*known, Equation(left, value)), say(f"pressure_equation.{kind}"))
 
 
 def _boundary(stage: FluidKernel, points: Points, a: FluidAlphabet, c: Chapter) -> Step:
@@ -277,7 +294,9 @@ def _boundary(stage: FluidKernel, points: Points, a: FluidAlphabet, c: Chapter) 
     driving = substitute(stage.force - inert, {a.force: points.potential})
     paired = inner(n, push) - inner(n, inert - still)  # 0 = ⟨n, D̄p − ρ(u̇ + ∇_u u − f)⟩
     normal = inner(n, word(GRADIENT))
-    against = neg(("inner", draft.tree(driving, SHOWN), "n")) if driving else 0
+    against: Tree = neg(("inner", draft.tree(driving, SHOWN), "n")) if driving else 0
+    if a.given:
+        against = ("inner", draft.tree(-driving), "n")
     return draft.step(
         (
             Equation(read("∂ₙp"), draft.tree(normal, SHOWN)),
@@ -285,8 +304,3 @@ def _boundary(stage: FluidKernel, points: Points, a: FluidAlphabet, c: Chapter) 
         ),
         say("boundary.tangent"),
     )
-
-
-def _kind(a: FluidAlphabet) -> str:
-    """The density, as a part of a key."""
-    return "advected" if a.advected else "homogeneous"
