@@ -147,7 +147,8 @@ KINDS = {
         "point unstable unstable_beyond open undecided eigenvalues squares near"
     ),
     "family": (
-        "at origin letter positive orbit form stable stable_always on_the_leaf on_the_leaf_always "
+        "at origin letter positive orbit form stable stable_always stable_beyond "
+        "stable_beyond_always on_the_leaf on_the_leaf_always "
         "indefinite unstable unstable_large unstable_always imaginary"
     ),
     "position": "along along_of against against_of lowest lowest_near highest highest_near",
@@ -283,7 +284,7 @@ def _two_by_two(by: str, parts: Sequence[Sentence | str]) -> Sentence | str:
     return reduce(lambda x, y: phrase(by, first=x, second=y), parts) if parts else ""
 
 
-FAMILIES = ("positive", "stable", "on_the_leaf", "unstable", "unstable_large")
+FAMILIES = ("positive", "stable", "stable_beyond", "on_the_leaf", "unstable", "unstable_large")
 TEXTS = dict.fromkeys((f"family.{x}" for x in FAMILIES), _inequalities) | {
     "equilibrium.near": _coordinates,
     **dict.fromkeys((f"trim.near_{x}.near" for x in ("rest", "steady", "along")), _coordinates),

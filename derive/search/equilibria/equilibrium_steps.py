@@ -412,7 +412,7 @@ def _family_verdict(draft: Draft, x: Family) -> Prose:
     cases = _cases(x, x.stable)
     if _long(cases):
         return prose + say("family.minors_large")
-    kind = "stable" if x.beyond else "on_the_leaf"
+    kind = "stable" if x.beyond else "stable_beyond" if x.whole else "on_the_leaf"
     always = () in (y.beyond(x.known) for y in x.stable)
     if always or not x.stable:
         prose += say_so(f"family.{kind}_always" if always else "family.indefinite")

@@ -88,7 +88,9 @@ def _without_energy(problem: Problem) -> tuple[LiePoisson, list[Place]]:
     letter = "A" if problem.advected is None else "Γ"
     variables = (*momenta, *(("entry", letter, *(i + 1 for i in x)) for x in entries))
     own = carried_entries({"advected": [*map(vars, problem.advected or ())]})
-    names = tuple(own[x[2] - 1] if x[1] == "Γ" else coordinate(x) for x in variables)
+    on_algebra = zip(own, range(1, carried + 1), strict=True)
+    named = {("entry", "Γ", i): name for name, i in on_algebra}
+    names = tuple(named.get(x, coordinate(x)) for x in variables)
     return LiePoisson(variables, brackets, {}, (), group.dimension, names), entries
 
 
