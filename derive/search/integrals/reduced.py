@@ -89,7 +89,7 @@ def _without_energy(problem: Problem) -> tuple[LiePoisson, list[Place]]:
     variables = (*momenta, *(("entry", letter, *(i + 1 for i in x)) for x in entries))
     own = carried_entries({"advected": [*map(vars, problem.advected or ())]})
     on_algebra = zip(own, range(1, carried + 1), strict=True)
-    named = {("entry", "Γ", i): name for name, i in on_algebra}
+    named: dict[Tree, str] = {("entry", "Γ", i): name for name, i in on_algebra}
     names = tuple(named.get(x, coordinate(x)) for x in variables)
     return LiePoisson(variables, brackets, {}, (), group.dimension, names), entries
 
