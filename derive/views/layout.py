@@ -30,7 +30,7 @@ from .printing.typeset import Formula, Line, fill, literal, measure, plain, text
 OF_G = ("A", "Ȧ")
 """The letters of matrices that have a block for each factor."""
 MEANING = "{meaning}; its blocks are {blocks}"
-CARRIED = "{meaning}; its entries are {entries}"
+CARRIED = "{meaning}; its components are {entries}"
 
 
 class Reading:
