@@ -136,11 +136,14 @@ def _of_variables(problem: Problem, values: Mapping[str, Number]) -> dict[str, N
     """The coordinates of a point by the names of the reduced variables: A_44 is A2_11 in the
     problem, where its group is a product, and Gamma_1 is what an algebra advects first."""
     from .problem.fields import known_in_lagrangian
-    from .search.equilibria.equilibrium_points import coordinate
+    from .search.integrals.reduced import coordinate
 
     own = known_in_lagrangian(problem.own_group, problem.advected)
-    entries = {x for x, t in own.items() if isinstance(t, tuple) and t[1] in ("A", "Γ")}
-    return {coordinate(own[x]) if x in entries else x: v for x, v in values.items()}
+    entries = {x: t for x, t in own.items() if isinstance(t, tuple) and t[1] in ("A", "Γ")}
+    known = {x: coordinate(t) for x, t in entries.items()}
+    if problem.advected:
+        known = {y: x for x, y in known.items()}
+    return {known.get(x, x): v for x, v in values.items()}
 
 
 def _elements(problem: Problem, whole: IntegralsFound) -> tuple[EntryConditions, ...]:

@@ -415,6 +415,7 @@ JUDGES: dict[str, Judge] = {
     **{kind: _of_reduced(judge) for kind, judge in integral_claims.JUDGES.items()},
     **{kind: _of_reduced(judge) for kind, judge in equilibrium_claims.JUDGES.items()},
     **{kind: _of_reduced(judge) for kind, judge in family_claims.JUDGES.items()},
+    **position_claims.AXES,
     **{kind: _of_reduced(judge) for kind, judge in position_claims.JUDGES.items()},
     **{kind: _of_reduced(judge) for kind, judge in enclosure.JUDGES.items()},
 }

@@ -122,6 +122,12 @@ def suffixed(name: str, *index: int) -> str:
     return f"{name}_{digits}"
 
 
+def carried_entries(problem: Mapping[str, Any]) -> list[str]:
+    """The names of the entries of Γ, all that an algebra carries along, in a record's problem."""
+    carried = problem.get("advected") or ()
+    return [suffixed(x["name"], i) for x in carried for i in range(1, x["size"] + 1)]
+
+
 def stored_masses(problem: Mapping[str, Any]) -> list[str]:
     """The masses that the flows of a record's problem say to be numbers of the state, in order."""
     return [*dict.fromkeys(x["mass"] for x in problem.get("flows", ()) if "mass" in x)]

@@ -40,10 +40,10 @@ from ..language.limits import Refused
 from ..language.read import FormulaError, read
 from ..language.tree import Tree
 from ..record.record import Equation
-from ..views.book import RATE
 from ..views.figure.drawing import Scene
 from ..views.language import LANGUAGES
 from ..views.printing.letters import named_so
+from ..views.printing.signs import OVERDOT
 
 FOLDER = Path(__file__).with_name("chapters")
 PROVED = ("lemma", "proposition", "theorem")
@@ -107,7 +107,7 @@ def rate_of(t: Tree) -> Tree:
     """The rate of a momentum or of an entry, as equations have it; 0 of anything else."""
     if not isinstance(t, tuple) or t[0] not in ("at", "entry") or not isinstance(t[1], str):
         return 0
-    return (t[0], normalize("NFC", t[1] + RATE), *t[2:])
+    return (t[0], normalize("NFC", t[1] + OVERDOT), *t[2:])
 
 
 class Given(str):

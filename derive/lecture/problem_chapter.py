@@ -137,7 +137,7 @@ def chapter_of(
         run,
         lambda e: _rows(e) <= SHORT,
     )
-    reading = Reading(str(d.problem["group"]))
+    reading = Reading(d.problem)
     steps = (*d.steps, *(s for x in found.values() for s in x.steps))
     sums = NamedSums((x for s in steps for x in s.names), d.problem["parameters"])
     blocks = [as_read(x, reading, sums) for x in blocks]

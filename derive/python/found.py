@@ -18,7 +18,6 @@ from ..language.univariate import Number
 from ..problem.problem import Problem
 from ..record.record import Derivation
 from ..search.equilibria.enclosed_points import Enclosed
-from ..search.equilibria.equilibrium_points import coordinate
 from ..search.equilibria.stability import Equilibrium
 from ..search.equilibria.stability_in_letters import Case, Family, inequality
 from ..search.equilibria.trim import Trim
@@ -63,8 +62,8 @@ class Steady(Judged):
     def at(self) -> dict[str, Number]:
         """The coordinates that are not 0, by their names."""
         about = self.found.about
-        pairs = zip(about.system.variables, about.at, strict=True)
-        return {coordinate(v): x for v, x in pairs if x}
+        pairs = zip(about.system.names, about.at, strict=True)
+        return {v: x for v, x in pairs if x}
 
     @property
     def growth(self) -> float:
@@ -89,8 +88,8 @@ class Near(Finding, Judged):
     @property
     def at(self) -> dict[str, float]:
         """The doubles nearest to its coordinates, by their names."""
-        pairs = zip(self.found.about.system.variables, self.found.nearest, strict=True)
-        return {coordinate(v): x for v, x in pairs}
+        pairs = zip(self.found.about.system.names, self.found.nearest, strict=True)
+        return dict(pairs)
 
     @property
     def radius(self) -> float:
@@ -118,8 +117,8 @@ class InLetters:
     def at(self) -> dict[str, str]:
         """The coordinates that are not 0, by their names."""
         about = self.found.about
-        pairs = zip(about.system.variables, about.at, strict=True)
-        return {coordinate(v): show(about.tree(x)) for v, x in pairs if x}
+        pairs = zip(about.system.names, about.at, strict=True)
+        return {v: show(about.tree(x)) for v, x in pairs if x}
 
     @property
     def stable(self) -> tuple[tuple[str, ...], ...]:

@@ -215,7 +215,7 @@ def _two_by_two(by: str, parts: Sequence[Sentence | str]) -> Sentence | str:
     return reduce(lambda x, y: phrase(by, first=x, second=y), parts) if parts else ""
 
 
-FAMILIES = ("positive", "stable", "on_the_leaf", "unstable", "unstable_large")
+FAMILIES = ("positive", "stable", "stable_beyond", "on_the_leaf", "unstable", "unstable_large")
 TEXTS = dict.fromkeys((f"family.{x}" for x in FAMILIES), _inequalities) | {
     "equilibrium.near": _coordinates,
     **dict.fromkeys((f"trim.near_{x}.near" for x in ("rest", "steady", "along")), _coordinates),

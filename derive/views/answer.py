@@ -11,17 +11,16 @@ from fractions import Fraction
 from functools import partial
 from unicodedata import normalize
 
-from ..language.reserved import by_letter
+from ..language.reserved import by_letter, carried_entries
 from ..language.show import show
 from ..language.tree import Tree, add, coefficient, mul, names, neg, nodes, terms
 from ..record.record import ANY_GROUP, Derivation, Equation, Step
 from ..record.sentence import Prose, Sentence
-from .book import RATE
 from .language import ENGLISH, Language
 from .outline import Letter, headline, latex_names, parameters, printed
 from .printing.letters import standard
 from .printing.sentences import dollars, prose
-from .printing.signs import Notation, markdown_text
+from .printing.signs import OVERDOT, Notation, markdown_text
 from .printing.tex import formula as of_tree
 from .printing.tex import latex_tree
 from .printing.typeset import WIDTH, Formula, literal, measure
@@ -107,7 +106,7 @@ def _any_member(x: Tree) -> Tree:
 def _told(equations: Sequence[Equation]) -> set[Tree]:
     """What the equations tell: left sides, and the rates in them with their entries."""
     inside = [x for e in equations for x in nodes(e.lhs)]
-    rates = {x for x in inside if isinstance(x, str) and RATE in normalize("NFD", x)}
+    rates = {x for x in inside if isinstance(x, str) and OVERDOT in normalize("NFD", x)}
     entries = {x for x in inside if isinstance(x, tuple) and x[1] in rates}
     return rates | entries | {e.lhs for e in equations if _sides(e) == (e.rhs,)}
 
@@ -133,6 +132,7 @@ def letters(d: Derivation, equations: Sequence[Equation], language: Language) ->
     equated = {x[1] for x in (e.lhs for e in equations) if isinstance(x, tuple) and x[0] == "at"}
     plain = {x for e in equations for side in _sides(e) for x in _plain(side)}
     numbers = {x[1] for x in there if isinstance(x, tuple) and x[0] == "par"}
+    plain |= {"Γ"} if numbers & {*carried_entries(d.problem)} else set()
     told = {y for x in _told(equations_of_motion(d)) for y in names(x)}
     for s in d.symbols:
         family = s.name in families and not (s.name in equated and d.definition(s.name))

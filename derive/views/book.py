@@ -21,10 +21,10 @@ from ..record.vocabulary import VOCABULARY
 from .language import ENGLISH, Language
 from .outline import Letter, parameters, system, title
 from .paper.findings import OMISSION, SIGN, VERDICTS, PaperFinding
+from .printing.signs import OVERDOT
 from .printing.typeset import WIDTH
 
 VARIATIONS = ("δ′", "δ")
-RATE = "\u0307"
 MOTION = "Equations of motion"
 SIDES = ("left", "right")
 REGULAR = "Ẋ is the derivative of X along the motion; δX and δ′X are two variations of X."
@@ -125,7 +125,7 @@ def of_any_group(s: Symbol) -> Symbol:
 
 def _regular(name: str) -> bool:
     """Is it a variation or rate as δA, δ′A, Ȧ, which REGULAR explains?"""
-    return name.startswith(VARIATIONS) or RATE in normalize("NFD", name)
+    return name.startswith(VARIATIONS) or OVERDOT in normalize("NFD", name)
 
 
 def steps(parts: Sequence[BookPart]) -> Iterator[tuple[BookPart, Step]]:

@@ -1,7 +1,7 @@
 """A record as it is read: common factors of parameters before their sum, l²(m₁ + m₂); in a product
 of groups the entries of g by the blocks of the factors, as problem files type them: A₃₃ of two
-rotations of the plane, A2_11 in a file, is (A₂)₁₁. And the equations of a step as rows of an
-alignment, none wider than the page.
+rotations of the plane, A2_11 in a file, is (A₂)₁₁; and those of Γ by the names of what the algebra
+carries along. And the equations of a step as rows of an alignment, none wider than the page.
 """
 
 from __future__ import annotations
@@ -11,33 +11,37 @@ from collections import Counter
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import groupby
+from typing import Any
 
 from ..algebra.families import group
 from ..algebra.groups import Group
-from ..language.show import show
+from ..language.reserved import carried_entries
+from ..language.show import in_sentence, show
 from ..language.tree import Tree, add, mul
 from ..record.record import Derivation, Equation, Step, Symbol
 from ..record.sentence import Prose, Sentence, phrase
 from .language import ENGLISH, Entry, Language, entries
 from .outline import domain, moving, quantified
 from .printing.sentences import spelt
-from .printing.signs import Notation, tex_text
+from .printing.signs import OVERDOT, Notation, tex_text
 from .printing.tex import formula, guarded, joined, latex_tree, marked, paren, pieces
 from .printing.typeset import Formula, Line, fill, literal, measure, plain, text
 
 OF_G = ("A", "Ȧ")
 """The letters of matrices that have a block for each factor."""
 MEANING = "{meaning}; its blocks are {blocks}"
+CARRIED = "{meaning}; its components are {entries}"
 
 
 class Reading:
-    """How equations and sentences of a record are read, by the name of its group."""
+    """How equations and sentences of a record are read, by its problem."""
 
-    def __init__(self, name: str):
+    def __init__(self, problem: Mapping[str, Any]):
+        name = str(problem["group"])
         factors = group(name).factors if " x " in name else ()
         self.count = len(factors)
-        self.named = _entries(group(name)) if factors else {}
-        self.texts = {show(old): show(new) for old, new in self.named.items()}
+        self.named = (_entries(group(name)) if factors else {}) | _carried(problem)
+        self.texts = {show(old): in_sentence(new) for old, new in self.named.items()}
         self.found = re.compile("|".join(rf"{re.escape(x)}(?!,?[₀-₉])" for x in self.texts))
 
     def tree(self, t: Tree) -> Tree:
@@ -71,7 +75,12 @@ class Reading:
         return replace(s, equations=equations, prose=self._prose(s.prose))
 
     def symbol(self, x: Symbol) -> Symbol:
-        """A symbol; that of g with its blocks."""
+        """A symbol; that of g with its blocks, that of Γ with its entries."""
+        if x.name == "Γ" and self.named:
+            entries = ", ".join(
+                y for t, y in self.texts.items() if t.startswith("Γ") and OVERDOT not in t
+            )
+            return replace(x, meaning=(phrase(CARRIED, meaning=x.meaning[0], entries=entries),))
         if x.name != "A" or not self.count:
             return x
         blocks = ", ".join(show(("at", "A", k + 1)) for k in range(self.count))
@@ -80,9 +89,20 @@ class Reading:
 
 def as_read(d: Derivation) -> Derivation:
     """The record as it is read; to be shown, not to be checked."""
-    reading = Reading(str(d.problem["group"]))
+    reading = Reading(d.problem)
     steps, symbols = map(reading.step, d.steps), map(reading.symbol, d.symbols)
     return replace(d, steps=tuple(steps), symbols=tuple(symbols))
+
+
+def _carried(problem: Mapping[str, Any]) -> dict[Tree, Tree]:
+    """Each entry of Γ, and its rate → by the name that the problem has for it."""
+    found: dict[Tree, Tree] = {}
+    for i, name in enumerate(carried_entries(problem), 1):
+        letter, _, index = name.rpartition("_")
+        found["entry", "Γ", i] = ("par", name)
+        dotted = ("par", f"{letter}{OVERDOT}_{index}")
+        found["entry", "Γ̇", i] = dotted if len(letter) == 1 else ("call", "d/dt", ("par", name))
+    return found
 
 
 def _entries(g: Group) -> dict[Tree, Tree]:

@@ -8,6 +8,7 @@ from itertools import groupby
 from pathlib import Path
 from typing import Any
 
+from ..language.reserved import carried_entries
 from ..language.show import in_sentence
 from ..language.tree import Tree, names, nodes
 from ..language.tree import names as names_in
@@ -68,11 +69,12 @@ def latex_names(d: Derivation) -> dict[str, str]:
 
 
 def named_numbers(d: Derivation) -> list[str]:
-    """The numbers that the problem has names for: its parameters, and what inputs give, as far as
-    equations have them."""
+    """The numbers that the problem has names for: its parameters, what an algebra carries along,
+    and what inputs give, as far as equations have them."""
     sides = (x for s in d.steps if s.driven for e in s.equations for x in (e.lhs, e.rhs))
     given = (x[1] for t in sides for x in nodes(t) if isinstance(x, tuple) and x[0] == "par")
-    return [*dict.fromkeys(map(str, (*(d.problem.get("parameters") or ()), *given)))]
+    stated = (*(d.problem.get("parameters") or ()), *carried_entries(d.problem))
+    return [*dict.fromkeys(map(str, (*stated, *given)))]
 
 
 def declared(d: Derivation | None, language: Language) -> Iterator[tuple[str, str, str, str]]:

@@ -1,6 +1,7 @@
 """Equilibria and what is said of their stability, in numbers and in letters, beside linearisations
 by hand."""
 
+from dataclasses import replace
 from fractions import Fraction
 from random import Random
 
@@ -11,10 +12,11 @@ from derive import ProblemError, derive
 from derive.command.cli import main
 from derive.problem.toml import problem_of
 from derive.record.as_json import from_json
-from derive.record.sentence import english
+from derive.record.prose import message
+from derive.record.sentence import Sentence, english
 from derive.search.equilibria.energy_casimir import between_roots, diagonalised
 from derive.search.equilibria.stability import polynomial, roots_of_squares
-from tests.support.lagrangians import LINE, heavy, heisenberg, lagrangian, nilpotent
+from tests.support.lagrangians import LINE, heavy, heisenberg, lagrangian, nilpotent, two_algebras
 from tests.support.walks import repeated
 
 
@@ -361,16 +363,92 @@ def test_a_cone_of_a_density_in_letters():
     assert weighed(more, pi) * threshold == weighed(less, pi) * 121
 
 
-@pytest.mark.parametrize("name", ["euler_top", "lagrange_top"])
+BRACED = lagrangian(
+    "(a*zeta_1^2 + b*zeta_2^2 + c*zeta_3^2)/2 + k*zeta_1*zeta_3 - (A_12^2 + A_23^2)/2",
+    "UT(3)",
+    "a b c k",
+)
+"""A particle in a magnetic field, its two masses joined: k² < ac."""
+IN_LETTERS = {
+    "euler_top": lambda: "euler_top",
+    "lagrange_top": lambda: "lagrange_top",
+    "braced": lambda: BRACED,
+    "two algebras": lambda: two_algebras("k", k={}),
+    "two algebras in numbers": lambda: two_algebras("1"),
+}
+
+
+@pytest.mark.parametrize("name", IN_LETTERS)
 def test_every_family_is_checked(name):
-    found = derive(name).families()
+    found = derive(IN_LETTERS[name]()).families()
     assert [v.reason for v in found.check(1) if not v.holds] == []
+
+
+def test_what_cannot_be_is_no_case():
+    """By hand: a > 0, as ac > k², and (a − c)² + 4k² < 0 nowhere."""
+    rest, turning = derive(BRACED).families()
+    assert (rest.unstable, turning.unstable) == ((), ())
+    (case,) = rest.stable
+    assert case[1:] == ("k² > 0",)
+    assert len(turning.stable) == 1
+    said = " ".join(english(s.prose) for s in derive(BRACED).families().record.steps)
+    assert said.count("no eigenvalue has a positive real part") == 2
+    (hanging,) = [x for x in derive("kovalevskaya_top").families() if "A_31" in x.at][-1:]
+    assert hanging.stable == (("mgl > 0",),)
+
+
+@pytest.mark.parametrize("seed", repeated(range(6)))
+def test_what_is_shown_to_be_positive_is(seed):
+    """Of polynomials in a letter that is positive, one that does not vanish, and any other."""
+    from sympy import QQ, ring
+
+    from derive.search.equilibria.stability_in_letters import Case
+
+    R, x, y, z = ring("x y z", QQ)
+    known = Case(((1, frozenset([x])),), frozenset([x, y]))
+    draw, shown = Random(seed), []
+    for _ in range(400):
+        parts = [draw.randint(-2, 2) * p for p in (x, y, z, x * y, R(1))]
+        f = sum(p**2 for p in draw.sample(parts, 3)) + (parts[0] + parts[1] - parts[2]) ** 2
+        f += draw.choice([1, 0, -1]) * x * draw.choice([1, y**2, x * z**2])
+        shown += [(f, x) for x in (True, False) if known.shows(f, strictly=x)]
+    assert len(shown) > 100
+    for f, strictly in shown:
+        for _ in range(30):
+            at = [Fraction(draw.randint(1, 60), draw.randint(1, 40)) for _ in "xyz"]
+            at = [at[0], at[1] * draw.choice([1, -1]), at[2] * draw.choice([0, 1, -1])]
+            value = f.evaluate([*zip((x, y, z), map(QQ.convert, at), strict=True)])
+            assert value > 0 or (value == 0 and not strictly), f
+
+
+def test_off_the_leaf_by_a_form_that_is_definite_there():
+    """h̃ + ½k|u|² of a top that hangs at rest, on a leaf that is smaller than others."""
+    weighed = derive(two_algebras("k", k={})).families()
+    hanging = next(x for x in weighed if x.at == {"u_3": "−1"})
+    assert hanging.stable == (("k > 0",),)
+    told = {c.kind for s in weighed.record.steps for c in s.claims}
+    assert {"family.stable_beyond", "family.on_the_leaf_always"} <= told
+    from derive.check.checker import check
+
+    record = derive(two_algebras("1")).families().record
+    wrong = renamed(record, "family.on_the_leaf_always", "family.stable_beyond_always")
+    bad = [v for v in check(wrong, 1) if not v.holds]
+    assert [v.label[2:] for v in bad] == ["equilibrium_1", "equilibrium_3", "energy_casimir_9"]
+    assert all("what follows is: on_the_leaf" in v.reason for v in bad)
+
+
+def renamed(record, old, new):
+    """A record that says another sentence, without places, in the place of one."""
+    steps = []
+    for s in record.steps:
+        claims = tuple(replace(c, kind=new) if c.kind == old else c for c in s.claims)
+        prose = tuple(Sentence(message(new)) if x.message == message(old) else x for x in s.prose)
+        steps.append(replace(s, claims=claims, prose=prose))
+    return replace(record, steps=tuple(steps))
 
 
 def corrupted(record, old, new):
     """The claims of a record with other inequalities, and its sentences made of them."""
-    from dataclasses import replace
-
     from derive.record.sentence import rendered
 
     def changed(t):

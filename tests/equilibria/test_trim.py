@@ -302,3 +302,33 @@ def test_an_attitude_that_is_no_element_is_refused():
     assert holds(found)
     with pytest.raises(ProblemError, match="no element is Cayley's transform of a turn"):
         made.trim({}, ["eta_1", "eta_5"])
+
+
+FREE = lagrangian("(zeta_1^2 + 2*zeta_2^2 + 3*zeta_3^2)/2")
+TWO_ARMS = lagrangian("(zeta_1^2 + zeta_2^2)/2 + A1_11 + 2*A2_11", "SO(2) x SO(2)")
+
+
+def axes(step):
+    return [x for x in step.claims if x.kind.startswith("position.")]
+
+
+def test_where_bodies_point():
+    """A solid with axes e_1 ↦ e_2 ↦ e_3 ↦ e_1 turns about its third one; of two arms one stands."""
+    found = derive(FREE).trim({"A_11": 0, "A_22": 0, "A_33": 0, "A_21": 1, "A_32": 1, "A_13": 1})
+    assert len(axes(found.record.steps[-1])) == 3
+    turned = {"A_11": 0, "A_22": 0, "A_33": 0, "A_21": 1, "A_32": 1, "A_13": 1, "zeta_3": 2}
+    found = derive(FREE).trim(turned)
+    step = found.record.steps[-1]
+    (own,) = axes(step)
+    assert own == Claim("position.along", (("axis", 3), ("space", 1)))
+    assert "Axis 3 of the body points along axis 1 of space." in english(step.prose)
+    checker = ClaimChecker(found.record, SEED)
+    assert not checker.fault(step)
+    for axis, space, why in ((1, 2, "the axis moves"), (3, 2, "elsewhere"), (4, 1, "no such")):
+        wrong = Claim(own.kind, (("axis", axis), ("space", space)))
+        assert why in checker.fault(said(step, own, wrong))
+    found = derive(TWO_ARMS).trim({"A2_11": -1, "A2_22": -1})
+    of_one = [dict(x.values) for x in axes(found.record.steps[-1])]
+    assert of_one == [{"axis": k, "space": k, "body": 2} for k in (1, 2)]
+    assert all(v.holds for v in found.check(1))
+    assert not axes(derive(FREE).trim({}).record.steps[-1])

@@ -551,14 +551,26 @@ def test_searches_refused_for_one_reason_stand_together(made):
     assert "None with at most one momentum" in page
 
 
-def test_inputs_that_hold_a_body_are_told(tmp_path, monkeypatch):
+@pytest.mark.parametrize(
+    ("more", "said"),
+    [
+        ("", "pour le reste dans la position de référence et sans commande"),
+        (
+            'force = [{ covector = ["lift^3"] }]',
+            "le corps est dans la position de référence, et sans commande",
+        ),
+    ],
+)
+def test_inputs_that_hold_a_body_are_told(more, said, tmp_path, monkeypatch):
+    """Exact, and within bounds; never g = 1, beside a weight by g."""
     monkeypatch.chdir(tmp_path)
-    Path("hung.toml").write_text(HUNG, encoding="utf-8")
+    Path("hung.toml").write_text(HUNG + more, encoding="utf-8")
     chapter, records, _ = chapter_on("hung.toml")
     assert "hung:trim" in records
     page = alone(chapter, records, "fr")
     assert "Au repos, grâce à ses commandes." in page
-    assert "pour le reste dans la position de référence et sans commande" in page
+    assert said in page
+    assert not re.search(r"g\$? *= *1\b", page)
     assert len([*tried(chapter, records, SEED)]) >= 2
 
 

@@ -425,6 +425,49 @@ SCRIPT = """() => {
 }"""
 
 
+LABEL = "(document.activeElement.ariaLabel || '') + document.activeElement.id"
+NUMBER = "document.activeElement.closest('[data-name]')?.dataset.name ?? ''"
+VALUE = "document.activeElement.ariaValueNow ?? document.activeElement.value"
+
+
+def tabbed(page, told, name, where=None):
+    """Tab until the focus is there."""
+    for _ in range(60):
+        page.keyboard.press("Tab")
+        if (where or page).evaluate(told) == name:
+            return
+    raise AssertionError(f"{name} is not reached by Tab")
+
+
+def test_a_parameter_is_set_by_keys_alone(fresh, site):
+    """In the sentence, and beside what moves; nothing is clicked or focused by a script."""
+    visit(fresh, f"{site}#top", "top")
+    fresh.evaluate("document.activeElement.blur()")
+    tabbed(fresh, LABEL, "as-sentence")
+    fresh.keyboard.press("Enter")
+    tabbed(fresh, LABEL, "radius of the base")
+    fresh.keyboard.press("ArrowDown")
+    assert fresh.evaluate(VALUE) == "0.029"
+    fresh.keyboard.press("Control+a")
+    fresh.keyboard.type("0.05")
+    fresh.keyboard.press("Enter")
+    tabbed(fresh, LABEL, "tab-walk")
+    fresh.keyboard.press("ArrowRight")
+    fresh.wait_for_selector("iframe[data-moved]", timeout=90_000)
+    frame = moving(fresh)
+    tabbed(fresh, NUMBER, "R", frame)
+    assert frame.evaluate(VALUE) == "0.05"
+    before = frame.evaluate(STATE, 1.0)
+    fresh.keyboard.press("ArrowUp")
+    assert float(frame.evaluate(VALUE)) > 0.05
+    fresh.keyboard.press("Enter")
+    fresh.keyboard.press("Control+a")
+    fresh.keyboard.type("0.08")
+    fresh.keyboard.press("Enter")
+    assert frame.evaluate(VALUE) == "0.08"
+    assert apart(before, frame.evaluate(STATE, 1.0)) > 0.01
+
+
 def test_by_keys_and_nothing_is_asked_of_others(fresh, site):
     visit(fresh, f"{site}#so3")
     fresh.evaluate("document.activeElement.blur()")

@@ -129,6 +129,17 @@ def every_case():
     ]
 
 
+def two_algebras(weight, **parameters):
+    """A heavy top beside affine maps of a line, its vertical advected: at rest the stabiliser does
+    not commute, and the leaf is smaller than others."""
+    by_axes = [[[0, 0, 0], [0, 0, -1], [0, 1, 0]], [[0, 0, 1], [0, 0, 0], [-1, 0, 0]], TURN]
+    matrices = [*by_axes, *[[[0] * 3] * 3] * 2]
+    brackets = [[1, 2, 3, 1], [2, 3, 1, 1], [3, 1, 2, 1], [4, 5, 5, 1]]
+    data = {"name": "x", "algebra": {"brackets": brackets}, "parameters": parameters}
+    data["advected"] = [{"name": "u", "representation": matrices}]
+    return problem_of(data | {"lagrangian": {"L": f"{squares(1, 2, 3, 1, 1)} - {weight}*u_3"}})
+
+
 def nilpotent():
     """Heisenberg's algebra alone: some of its coadjoint orbits are points."""
     data = {"name": "x", "algebra": {"brackets": [[1, 2, 3, 1]]}}

@@ -38,7 +38,7 @@ from tests.equilibria.test_steady_turns import turning
 from tests.support import corpus, symmetric, walks
 from tests.support.cached import on_disk
 from tests.support.kinds import examples
-from tests.support.lagrangians import every_record, heisenberg
+from tests.support.lagrangians import every_record, heisenberg, two_algebras
 from tests.support.trims import (
     balanced,
     cubed,
@@ -132,6 +132,8 @@ IN_LETTERS = [
     of(f"(a*zeta_1^2 + 2*zeta_2^2 + 3*zeta_3^2 + {MASSES})/2", "SE(3)", "a"),
     of(f"(zeta_1^2 + 2*zeta_2^2 + 3*zeta_3^2 + {MASSES})/2", "SE(3)"),
     heisenberg(),
+    two_algebras("k", k={}),
+    two_algebras("1"),
     walks.problem("lagrange_top"),
 ]
 """Of these the stability is told in letters."""

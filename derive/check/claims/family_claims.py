@@ -29,7 +29,8 @@ FINE = 2**20
 LARGEST = (40 * FINE, 12 * FINE)
 """Numbers are quotients of up to these: small ones are often those where the energy has a pole."""
 POINTS = ("family.at", "family.origin")
-DEFINITE = ("stable", "stable_always", "on_the_leaf", "on_the_leaf_always", "indefinite")
+SOMEWHERE = ("stable", "stable_beyond", "on_the_leaf")
+DEFINITE = (*SOMEWHERE, *(f"{x}_always" for x in SOMEWHERE), "indefinite")
 ROOTS = ("unstable", "unstable_large", "unstable_always", "imaginary")
 PROVED = {f"family.{x}" for x in (*DEFINITE, "positive")}
 """The claims of which each family has one."""
@@ -130,7 +131,7 @@ class ClaimedFamily:
     def trials(self) -> Iterator[tuple[Numbers, EquilibriumInNumbers]]:
         """Numbers at random and beside every inequality, with the equilibrium there."""
         several = [self.drawn() for _ in range(DRAWS)]
-        for kind in ("stable", "on_the_leaf", "unstable", "unstable_large"):
+        for kind in (*SOMEWHERE, "unstable", "unstable_large"):
             for case in self.cases(kind):
                 several += [x for pair in case for x in self.beside(*pair)]
         for numbers in several:
@@ -232,7 +233,8 @@ def _definite(system: ReducedSystem, step: Step, claim: Claim) -> str:
     """The form is definite where it is claimed, no more and no less, and proves what is said."""
     family, kind = ClaimedFamily(system, step), claim.kind.partition(".")[2]
     cases, always = family.cases(kind), kind.endswith("_always")
-    proves = {"stable", "stable_compact", "stable_beyond"}
+    proves = {"stable_beyond"}
+    proves |= set() if kind.startswith("stable_beyond") else {"stable", "stable_compact"}
     proves |= {"on_the_leaf"} if kind.startswith("on_the_leaf") else set()
     for numbers, x in family.trials():
         if x.definite is not (always or _any(cases, numbers)):

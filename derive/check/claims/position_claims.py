@@ -11,10 +11,12 @@ from ...language.tree import Tree, nodes
 from ...language.univariate import value_of
 from ...record.record import Step
 from ...record.sentence import Claim
+from .equilibrium_claims import coordinates
 from .integral_claims import Judge
-from .reduced_system import ReducedSystem
+from .reduced_system import ClaimedRecord, ReducedSystem
+from .reduced_system import Judge as JudgeOfRecord
 from .spectra_and_residues import about, expansion, gradient
-from .trim_claims import the_one
+from .trim_claims import POINTS, placed, the_one
 
 LARGEST = 2**30
 """Numbers are drawn up to this: of small ones some are where the energy has a pole."""
@@ -44,9 +46,9 @@ def _rotates(group: Group) -> bool:
     return all(a[i][j] == -a[j][i] for a in parts for i in span for j in span)
 
 
-def _axis(system: ReducedSystem, step: Step, claim: Claim) -> str:
-    """The entry of a rotation A is 1, or −1: A e_j = e_i, or −e_i."""
-    bodies, values = _turned(system.group), dict(claim.values)
+def _axis(c: ClaimedRecord, step: Step, claim: Claim) -> str:
+    """The entry of a rotation A is 1, or −1: A e_j = e_i, or −e_i; and of a trim AZe_j = 0."""
+    bodies, values = _turned(c.group), dict(claim.values)
     body, *axes = values.get("body", 1), values["space"], values["axis"]
     if ("body" in values) is not (len(bodies) > 1) or not isinstance(body, int):
         return "of which body that is is not said"
@@ -54,8 +56,15 @@ def _axis(system: ReducedSystem, step: Step, claim: Claim) -> str:
     i, j = (rows.start - 1 + x if isinstance(x, int) else 0 for x in axes)
     if i not in rows or j not in rows:
         return "the group rotates no such axis"
-    there = value_of(_point(step).get(("entry", "A", i, j), 0))
     sign = 1 if claim.kind.startswith("position.along") else -1
+    if any(x.kind in POINTS for x in step.claims):
+        _, g, zeta, _ = placed(c.group, coordinates(the_one(step, POINTS)))
+        Z = c.group.in_user_basis.hat(zeta)
+        if any(Z[k - 1][j - 1] for k in rows):
+            return "the axis moves"
+        there = g[i - 1][j - 1]
+    else:
+        there = value_of(_point(step).get(("entry", "A", i, j), 0))
     return "" if there == sign else "the axis points elsewhere"
 
 
@@ -99,10 +108,11 @@ def _slopes(system: ReducedSystem, row: Sequence[Tree]) -> list[Any]:
     return [found[system.variables.index(x)] for x in row]
 
 
-JUDGES: dict[str, Judge] = {
-    **dict.fromkeys((f"position.{x}{y}" for x in ("along", "against") for y in ("", "_of")), _axis),
-    **dict.fromkeys(
-        (f"position.{x}{y}" for x in ("lowest", "highest") for y in ("", "_near")), _energy
-    ),
-}
-"""How claims about the position of a body are judged, of equations that are Hamiltonian."""
+AXES: dict[str, JudgeOfRecord] = dict.fromkeys(
+    (f"position.{x}{y}" for x in ("along", "against") for y in ("", "_of")), _axis
+)
+"""How claims about the axes of bodies are judged, of equilibria and of trims."""
+JUDGES: dict[str, Judge] = dict.fromkeys(
+    (f"position.{x}{y}" for x in ("lowest", "highest") for y in ("", "_near")), _energy
+)
+"""How claims about the potential energy are judged, of equations that are Hamiltonian."""

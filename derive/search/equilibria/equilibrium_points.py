@@ -12,7 +12,6 @@ from typing import Any
 from ...language import rational as q
 from ...language.expression import parse
 from ...language.limits import Refused
-from ...language.reserved import suffixed
 from ...language.show import show
 from ...language.tree import Tree
 from ...language.univariate import Number, Quadratic, value_of
@@ -136,19 +135,13 @@ def number_from(text: str) -> Number:
         ) from None
 
 
-def coordinate(x: Tree) -> str:
-    """The name of a variable at the command line: Pi_1, A_31, Gamma_2."""
-    assert isinstance(x, tuple)
-    return suffixed({"Π": "Pi", "Γ": "Gamma"}.get(x[1], str(x[1])), *x[2:])
-
-
-def coordinates(system: LiePoisson, values: Mapping[str, Number]) -> list[str]:
+def coordinates(system: LiePoisson, values: Mapping[str, Number]) -> tuple[str, ...]:
     """The names of the variables; ``NoEquilibriumError`` where a value is of none."""
-    names = [coordinate(x) for x in system.variables]
     for name in values:
-        if name not in names:
-            raise NoEquilibriumError(f"{name} is no coordinate; these are {', '.join(names)}")
-    return names
+        if name not in system.names:
+            known = ", ".join(system.names)
+            raise NoEquilibriumError(f"{name} is no coordinate; these are {known}")
+    return system.names
 
 
 def given(

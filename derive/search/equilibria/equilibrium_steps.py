@@ -5,7 +5,6 @@ Families of equilibria in letters, and inequalities.
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 from fractions import Fraction
@@ -23,7 +22,6 @@ from ...language.univariate import (
     square_free,
 )
 from ...language.univariate import tree as plain
-from ...language.values import approximate
 from ...record.record import Equation, Step
 from ...record.sentence import Prose
 from ...walk.chapter import Chapter, Draft, say
@@ -33,6 +31,7 @@ from ..integrals.lie_poisson import scaled
 from .enclosed_points import Enclosed
 from .energy_casimir import EnergyCasimirForm, combined
 from .equilibrium_points import About, Expansion
+from .positions import position
 from .stability import Equilibrium
 from .stability_in_letters import Case, Family, inequality
 
@@ -73,7 +72,7 @@ def told_enclosed(
     """Two steps: the rates about the decimals, and the energy with multiples of the Casimirs."""
     made_from = _made_from(steps, c)
     draft, equations = _about_point("equilibrium_1", x.about, made_from[0], c)
-    prose = _position(x.about, draft, near=True)
+    prose = position(x.about, draft, near=True)
     rates = draft.step(
         equations, prose + draft.claim("equilibrium.near", point=point_rows(x.about))
     )
@@ -158,74 +157,13 @@ def _where(what: str, about: About, draft: Draft) -> Prose:
     """At which point an equilibrium, or a family of them, is."""
     if not any(about.at):
         return draft.claim(f"{what}.origin")
-    return _position(about, draft) + draft.claim(f"{what}.at", point=point_rows(about))
+    return position(about, draft) + draft.claim(f"{what}.at", point=point_rows(about))
 
 
 def point_rows(about: About) -> Tree:
     """The coordinates of a point that are not 0, each with its variable."""
     pairs = zip(about.system.variables, about.at, strict=True)
     return ("matrix", *(("row", v, about.tree(x)) for v, x in pairs if x))
-
-
-def _position(about: About, draft: Draft, *, near: bool = False) -> Prose:
-    """Is the potential energy the least or the greatest at a point, or where that is ``near``, and
-    which axes of the bodies that turn point along axes of space there?"""
-    blocks = _turning(draft.chapter.scope)
-    rows: dict[tuple[range, int], dict[int, int]] = {}
-    for k, x in enumerate(about.system.variables):
-        for own in blocks:
-            if isinstance(x, tuple) and x[1] == "A" and x[2] in own and x[3] in own:
-                rows.setdefault((own, x[2]), {})[x[3]] = k
-    axes: Prose = ()
-    for (own, row), entries in () if near else rows.items():
-        for column, k in entries.items():
-            if about.at[k] in (1, -1):
-                kind = "along" if about.at[k] == 1 else "against"
-                several = {"body": blocks.index(own) + 1} if len(blocks) > 1 else {}
-                places = {"axis": column - own.start + 1, "space": row - own.start + 1}
-                kind += "_of" if several else ""
-                axes += draft.claim(f"position.{kind}", **places, **several)
-    count = about.system.momenta + sum(len(own) for own, _ in rows)
-    if count != len(about.at) or len({own for own, _ in rows}) != len(rows) or not rows:
-        return axes
-    h = about.expansion(about.algebra.hamiltonian)
-    signs = {_along(about, h, [*x.values()], near) for x in rows.values()}
-    bent = h.higher or any(any(x) for x in h.second[about.system.momenta :])
-    if bent or signs not in ({1}, {-1}):
-        return axes
-    end = "_near" if near else ""
-    return draft.claim(f"position.{'lowest' if -1 in signs else 'highest'}{end}") + axes
-
-
-APART = Fraction(1, 10**8)
-"""The square of an angle, in rad², within which a direction in decimals is near another."""
-
-
-def _along(about: About, h: Expansion, entries: Sequence[int], near: bool) -> int:
-    """1 or −1 where the slope of the energy along these variables is along the vector of their
-    values or opposite to it, 0 elsewhere."""
-    slope, at = ([x[k] for k in entries] for x in (h.slope, about.at))
-    along, *squares = (
-        sum((x * y for x, y in zip(a, b, strict=True)), Fraction(0))
-        for a, b in ((slope, at), (slope, slope), (at, at))
-    )
-    off = squares[0] * squares[1] - along * along
-    number = approximate(about.tree(along), {}, float)
-    if not number or (off > APART * along * along if near else off):
-        return 0
-    return 1 if number > 0 else -1
-
-
-def _turning(scope: str) -> list[range]:
-    """The rows of A, from 1, of each body that a group, or a product, turns; nothing where a factor
-    is another group."""
-    blocks, first = [], 1
-    for found in map(ROTATIONS.fullmatch, re.split(" [x×] ", scope)):
-        if not found:
-            return []
-        blocks.append(range(first, first + int(found[2])))
-        first = blocks[-1].stop + (found[1] == "E")
-    return blocks
 
 
 def distances(about: About) -> list[Tree]:
@@ -369,7 +307,6 @@ def exact_squares(characteristic: Sequence[Number]) -> list[Tree]:
     return [add(plain(-b / 2), part), add(plain(-b / 2), neg(part)), *zeros]
 
 
-ROTATIONS = re.compile(r"S([OE])\((\d+)\)")
 LONG = 400
 """Inequalities and polynomials of more nodes are not printed."""
 
@@ -412,7 +349,7 @@ def _family_verdict(draft: Draft, x: Family) -> Prose:
     cases = _cases(x, x.stable)
     if _long(cases):
         return prose + say("family.minors_large")
-    kind = "stable" if x.beyond else "on_the_leaf"
+    kind = "stable" if x.beyond else "stable_beyond" if x.whole else "on_the_leaf"
     always = () in (y.beyond(x.known) for y in x.stable)
     if always or not x.stable:
         prose += say_so(f"family.{kind}_always" if always else "family.indefinite")

@@ -18,6 +18,7 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import partial
 from itertools import chain, combinations
+from math import prod
 from typing import Any
 
 from ...language.derivatives import power
@@ -49,10 +50,12 @@ Factors = frozenset[Any]
 
 @dataclass(frozen=True)
 class Case:
-    """``products``: sign times product is positive; ``nonzero``: factors that do not vanish."""
+    """``products``: sign times product is positive; ``nonzero``: factors that do not vanish;
+    ``implied``: letters that are positive where a metric is."""
 
     products: tuple[tuple[int, Factors], ...] = ()
     nonzero: Factors = frozenset()
+    implied: Factors = frozenset()
 
     def with_positive(self, *functions: Element) -> Case | None:
         """The case with these positive, too; ``None`` where they cannot be."""
@@ -65,11 +68,23 @@ class Case:
         if not x:
             return None
         sign, odd, every = _signed(x)
-        nonzero = Case(self.products, self.nonzero | every)
+        nonzero = replace(self, nonzero=self.nonzero | every)
         sign, odd = self._reduced(sign, frozenset(f for f in odd if not nonzero.shows(f)))
         if not odd:
             return nonzero if sign > 0 else None
-        return Case((*self.products, (sign, odd)), nonzero.nonzero)
+        found = replace(nonzero, products=(*self.products, (sign, odd)))
+        return None if found.is_empty() else found
+
+    def is_empty(self) -> bool:
+        """Is the sum of some of what is to be positive, with the last, shown to be at most 0?"""
+        single = [(s, f) for s, x in self.products if len(x) == 1 for f in x]
+        sign, factors = self.products[-1]
+        if len(factors) > 1:
+            return sign < 0 and all(self.shows(f, strictly=False) for f in factors)
+        *others, (_, last) = single
+        some = (x for k in range(3) for x in combinations(others, k))
+        sums = (sum((-s * f for s, f in x), -sign * last) for x in some)
+        return any(self.shows(f, strictly=False) for f in sums)
 
     def _reduced(self, sign: int, odd: Factors) -> tuple[int, Factors]:
         """A product times such as are positive, with as few factors as these make it."""
@@ -83,26 +98,56 @@ class Case:
                 return sign, odd
             sign, odd = sign * shorter[0][0], odd ^ shorter[0][1]
 
+    def without_repetition(self, known: Case) -> Case:
+        """The case without such of its products beyond the known as the others show."""
+        found = self
+        for x in self.products[len(known.products) :]:
+            left = replace(found, products=tuple(y for y in found.products if y != x))
+            if len(x[1]) == 1 and all(left.shows(x[0] * f) for f in x[1]):
+                found = left
+        return found
+
     def settled(self) -> Case:
         """The same with each product reduced by the others."""
         products = [*self.products]
         for k, x in enumerate(products):
             products[k] = Case((*products[:k], *products[k + 1 :]))._reduced(*x)
-        return Case((*(x for x in products if x[1]),), self.nonzero)
+        return replace(self, products=(*(x for x in products if x[1]),))
 
-    def shows(self, f: Any) -> bool:
-        """Is a polynomial positive, being a sum of even powers and of positive letters?"""
-        positive = {_letter(y) for s, x in self.products if s > 0 and len(x) == 1 for y in x}
-        there = {_letter(y) for y in self.nonzero}
-        terms = [({n for n, k in enumerate(e) if k % 2}, {*_places(e)}, c) for e, c in f.items()]
-        fair = all(c > 0 and odd <= positive for odd, _, c in terms)
-        return fair and any(used <= there for _, used, _ in terms)
+    def shows(self, f: Any, *, strictly: bool = True) -> bool:
+        """Is a polynomial positive, or else, not ``strictly``, at least 0?  It is where it is a sum
+        of even powers and of positive letters, and where it is of second degree in a letter and
+        its discriminant is so seen to be negative."""
+        single = ((_letter(y), s) for s, x in self.products if len(x) == 1 for y in x)
+        signs = {_letter(y): 1 for y in self.implied} | dict(single)
+        there = {_letter(y) for y in self.nonzero | self.implied}
+
+        def fair(term: tuple[tuple[int, ...], Any]) -> bool:
+            return (
+                prod((signs.get(n, 0) for n, k in enumerate(term[0]) if k % 2), start=term[1]) > 0
+            )
+
+        def at_least(f: Any, *, strictly: bool) -> bool:
+            if all(map(fair, f.items())):
+                return not strictly or any(there.issuperset(_places(e)) for e in f)
+            return len(f) <= SHOWN and any(squared(f, n, strictly) for n in range(f.ring.ngens))
+
+        def squared(f: Any, n: int, strictly: bool) -> bool:
+            c, b, a = (_coefficient(f, n, k) for k in range(3))
+            if f.degree(f.ring.gens[n]) != 2 or not (a and c):
+                return False
+            if signs.get(n, 0) > 0:
+                b = f.ring.from_dict({e: x for e, x in b.items() if not fair((e, x))})
+            ends = at_least(a, strictly=False) and at_least(c, strictly=False)
+            return ends and at_least(4 * a * c - b**2, strictly=strictly)
+
+        return at_least(f, strictly=strictly)
 
     def beyond(self, known: Case) -> tuple[tuple[int, Factors], ...]:
         """What is to be positive beyond what is known, squares of what is not to vanish last."""
         new = self.products[len(known.products) :]
         implied = known.nonzero.union(*(x for _, x in self.products))
-        squares = (f for f in self.nonzero - implied if not known.shows(f))
+        squares = (f for f in self.nonzero - implied if not (self.shows(f) or self.shows(-f)))
         return (*new, *((0, frozenset([f])) for f in sorted(squares, key=str)))
 
 
@@ -116,6 +161,12 @@ def _signed(x: Element) -> tuple[int, Factors, Factors]:
         every.add(alike)
         odd ^= {alike} if k % 2 else set()
     return sign, frozenset(odd), frozenset(every)
+
+
+def _coefficient(f: Any, n: int, k: int) -> Any:
+    """The coefficient of the power k of the letter at a place."""
+    here = ((e, c) for e, c in f.items() if e[n] == k)
+    return f.ring.from_dict({(*e[:n], 0, *e[n + 1 :]): c for e, c in here})
 
 
 def _places(e: Iterable[int]) -> Iterable[int]:
@@ -156,6 +207,8 @@ def inequality(algebra: PoissonPolynomials, sign: int, factors: Factors) -> tupl
 
 
 Vector = list[Element]
+SHOWN = 20
+"""Of polynomials of more terms no discriminant is taken to show that they are positive."""
 TERMS = 10
 """Of coefficients of more terms no discriminant is computed: it has hundreds."""
 
@@ -166,7 +219,8 @@ class Family:
     the form, none where there are none; ``characteristic``: polynomial on the leaf; ``apart``: that
     letters do not vanish, ``known``: that the kinetic energy is positive, too; ``stable``: cases in
     which the form is definite; ``unstable``: cases that prove it, all where they are ``counted``;
-    ``beyond``: are they stable off the leaf, too?"""
+    ``beyond``: are they stable off the leaf, too?  ``whole``: is the form definite on all
+    displacements wherever it is on those along the leaf?"""
 
     about: About
     names: tuple[str, ...]
@@ -178,6 +232,7 @@ class Family:
     unstable: tuple[Case, ...]
     counted: bool
     beyond: bool
+    whole: bool
 
 
 def letters(system: LiePoisson, taken: Mapping[str, Any]) -> tuple[str, ...]:
@@ -229,7 +284,13 @@ def positive(system: LiePoisson, apart: Case) -> Case | None:
     start = About(system, (Fraction(0),) * len(system.variables))
     second = [row[:m] for row in start.expansion(algebra.hamiltonian).second[:m]]
     case = apart.with_positive(*minors(second))
-    return case.settled() if case else None
+    if case is None:
+        return None
+    known = case.settled()
+    diagonal = (known.with_positive(row[k]) for k, row in enumerate(second))
+    beyond = (x for y in diagonal if y for x in y.products[len(known.products) :])
+    single = (x for s, x in beyond if s > 0 and len(x) == 1)
+    return replace(known, implied=frozenset(f for x in single for f in x if _letter(f) >= 0))
 
 
 def judged(
@@ -241,6 +302,7 @@ def judged(
     energy = about.expansion(about.algebra.hamiltonian)
     kept = [about.expansion(over(f)) for f in (*whole.casimirs, *whole.integrals)]
     multipliers, stable = _definite(about, on, energy, kept, known)
+    every = second_derivatives(multipliers, energy, kept) if multipliers is not None else []
     characteristic = polynomial(linear_on(about, on))
     factors = factors_of(characteristic[::2])
     signs = (x for f in factors for x in must_not_be_negative(f))
@@ -253,6 +315,7 @@ def judged(
         *(apart, known, stable, (*unstable.values(),)),
         counted=all(map(decided, factors)),
         beyond=regular or has_compact_stabilisers(whole.system),
+        whole=all(any(not y.beyond(x) for y in definite(every, x)) for x in stable),
     )
 
 
@@ -275,7 +338,7 @@ def _definite(
         poles = [x.field(x.denom) ** 2 for x in multipliers]
         cases = tuple(y for x in cases if (y := x.with_positive(*poles)))
         if cases:
-            return (*multipliers,), cases
+            return (*multipliers,), tuple(x.without_repetition(known) for x in cases)
     return (*several[0],), ()
 
 

@@ -28,6 +28,7 @@ from ...record.sentence import Prose
 from ...walk.chapter import Chapter, Draft
 from .cayley_chart import chart_slopes, conjugated, turned
 from .equilibrium_steps import decimal, scientific
+from .positions import axes_that_stay
 from .stability import eigenvalues, polynomial
 from .steady_velocity import EXACTLY, FLOATS, SAME, Arithmetic, NoTrimError, Rates
 
@@ -368,7 +369,12 @@ def told(trim: Trim, group: Group, steps: Iterable[Step], c: Chapter) -> Step:
 
 def _says_exact(trim: Trim, group: Group, draft: Draft) -> Prose:
     point = _equations(_rows(trim.state, trim, group, ()))
-    prose = draft.claim("trim.rest" if trim.resting else "trim.steady", point=point)
+    g: list[list[Any]] = [[*row] for row in q.identity(group.size)]
+    for name, (i, j) in entries_of(group).items():
+        g[i][j] = trim.state.get(name, g[i][j])
+    Z = group.in_user_basis.hat([*_velocity(trim, group).values()])
+    prose = axes_that_stay(q.matrix(g), Z, draft)
+    prose += draft.claim("trim.rest" if trim.resting else "trim.steady", point=point)
     if trim.corner:
         prose += draft.claim("trim.corner")
     if trim.sought:

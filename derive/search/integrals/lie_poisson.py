@@ -48,6 +48,7 @@ class LiePoisson:
     ``variables``: the names x_1 …, as trees.  ``brackets``: {x_i, x_j} for i < j from 0, those
     that are not 0.  ``hamiltonian``: the exponents of x → the coefficient, a tree of numbers and
     ``parameters``.  ``momenta``: so many of the variables, the first ones, count as of degree 1.
+    ``names``: those of the variables at the command line.
     """
 
     variables: tuple[Tree, ...]
@@ -55,6 +56,7 @@ class LiePoisson:
     hamiltonian: Mapping[Exponents, Tree]
     parameters: tuple[str, ...]
     momenta: int
+    names: tuple[str, ...]
 
     def bracket(self, i: int, j: int) -> Linear:
         """The linear form {x_i, x_j}."""

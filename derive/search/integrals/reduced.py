@@ -9,6 +9,7 @@ from typing import Any, NoReturn
 
 from ...algebra.groups import Group, constant_entries
 from ...language.limits import Refused
+from ...language.reserved import carried_entries, suffixed
 from ...language.tree import Tree, nodes, replaced
 from ...language.values import arithmetic
 from ...problem.entries_on_orbit import with_constant_entries
@@ -86,7 +87,17 @@ def _without_energy(problem: Problem) -> tuple[LiePoisson, list[Place]]:
     momenta = [("at", "Π", a) for a in range(1, group.dimension + 1)]
     letter = "A" if problem.advected is None else "Γ"
     variables = (*momenta, *(("entry", letter, *(i + 1 for i in x)) for x in entries))
-    return LiePoisson(variables, brackets, {}, (), group.dimension), entries
+    own = carried_entries({"advected": [*map(vars, problem.advected or ())]})
+    on_algebra = zip(own, range(1, carried + 1), strict=True)
+    named: dict[Tree, str] = {("entry", "Γ", i): name for name, i in on_algebra}
+    names = tuple(named.get(x, coordinate(x)) for x in variables)
+    return LiePoisson(variables, brackets, {}, (), group.dimension, names), entries
+
+
+def coordinate(x: Tree) -> str:
+    """The name of a variable at the command line: Pi_1, A_31, Gamma_2."""
+    assert isinstance(x, tuple)
+    return suffixed({"Π": "Pi", "Γ": "Gamma"}.get(x[1], str(x[1])), *x[2:])
 
 
 def _entries(L: Tree) -> list[Place]:

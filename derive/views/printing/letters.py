@@ -14,7 +14,7 @@ from ...language.show import ATOM, SUM
 from ...language.tree import Tree
 from ...record.record import Symbol
 from ...record.vocabulary import VOCABULARY
-from .signs import STYLED, Notation, tex_text
+from .signs import OVERDOT, STYLED, Notation, tex_text
 from .typeset import (
     BEFORE_FACTOR,
     Formula,
@@ -151,7 +151,12 @@ def names_of(symbols: Iterable[Symbol], parameters: Collection[str] = ()) -> dic
 
 
 def parameter(name: str, names: Mapping[str, str] = NAMES) -> Formula:
-    """The formula of a parameter, sans serif; a short end after _, or digits, is an index."""
+    """The formula of a parameter, or of the rate of such a number, sans serif; a short end after _,
+    or digits, is an index."""
+    if OVERDOT in name:
+        letter, _, index = name.rpartition("_")
+        own = _base(letter.replace(OVERDOT, ""), names)
+        return lowered(accented("dot", own, rf"\dot{{{own.tex}}}"), sans(index, index))
     if f"par {name}" in names:
         return sans(name, name)
     match = re.fullmatch(r"([A-Za-z][A-Za-z0-9]*)_([A-Za-z0-9]{1,3})", name) or re.fullmatch(

@@ -37,7 +37,9 @@ LETTERS = GREEK | {
     "nabla": "∇", "ell": "ℓ", "vartheta": "ϑ", "varsigma": "ς", "infty": "∞",
 }  # fmt: skip
 """Command of LaTeX (without its backslash) → letter, for commands that are letters."""
-MATH_ACCENTS = {"\u0304": r"\bar", "\u0303": r"\tilde", "\u0307": r"\dot", "\u0302": r"\hat"}
+OVERDOT = "\u0307"
+"""What stands over the letter of a rate."""
+MATH_ACCENTS = {"\u0304": r"\bar", "\u0303": r"\tilde", OVERDOT: r"\dot", "\u0302": r"\hat"}
 SYMBOLS = {letter: rf"\{name}" for name, letter in LETTERS.items()} | {
     "Σ": r"\sum", "−": "-", "∧": r"\wedge", "⟨": r"\langle", "⟩": r"\rangle",
     "‖": r"\Vert", "≅": r"\cong", "≠": r"\neq", "≤": r"\le", "≥": r"\ge", "∈": r"\in", "→": r"\to",
