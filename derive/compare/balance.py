@@ -29,8 +29,9 @@ Part = Callable[[Mapping[str, float]], Array]
 """A part of M a + b for all parameters by name."""
 FLAT = 1e-8
 """With a singular value so much less than those of ours, a mass matrix is that of no body."""
-EXACT = 1e-9
-"""What is left of an explained difference, relative to the largest term."""
+EXACT, LEAST = 1e-9, 1e-4
+"""What is left of an explained difference, relative to the largest term; so much of that at least
+where the difference is small."""
 
 
 @dataclass(frozen=True)
@@ -243,12 +244,14 @@ class Balance:
         return x
 
     def size(self) -> Array:
-        """The size of the terms of each row, (d,)."""
+        """The size of the terms of each row, (d,), and less where the difference is hardly more
+        than EXACT of it: a cause leaves a thousandth of that at most."""
         M, b = self.mass(self.values()), self.bias(self.x, self.u)
         known = self.code.rhs(self.t, self.x, self.k(self.values()), self.u)[:, self.moving]
         found = np.abs(b) + through(np.abs(M), np.abs(self.a) + np.abs(known))
         size: Array = np.maximum(found.max(axis=0), 1e-3 * found.max())
-        return size
+        part = float((np.abs(self.unexplained) / size).max())
+        return size * min(1.0, max(1e-3 * part / EXACT, LEAST))
 
     def bias(self, x: Array, u: Array, code: ModuleType | None = None) -> Array:
         """The bias b at some states and inputs, by the values of the problem."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from itertools import chain, product
@@ -38,6 +39,8 @@ from .user_states import (
 )
 from .users_code import Array, Call, CompareError, values
 
+VELOCITY = re.compile(r"(zeta|w)\d*_")
+"""How the names of velocities begin."""
 AGREES = 1e-9
 """The largest difference, relative to the size of the numbers, of what agrees."""
 STATES, MOST = 24, 10_000
@@ -172,7 +175,10 @@ def _state(c: Comparison, random: np.random.Generator) -> Array:
 def _moving(problem: Problem, program: Program) -> slice:
     """Where the velocity stands in our state, before masses that are numbers of it."""
     end = len(program.state) - len(problem.stored)
-    return slice(end - program.dimension, end)
+    count = program.dimension
+    if program.blocks:  # on a quotient there are fewer than the group has dimensions
+        count = sum(VELOCITY.match(x) is not None for x in program.state)
+    return slice(end - count, end)
 
 
 def _default(problem: Problem, program: Program, path: Path, function: str) -> Table:
@@ -187,11 +193,13 @@ def _blocks(problem: Problem, program: Program, code: ModuleType) -> dict[str, t
     """The blocks of a state on SO(3) and SE(3), or of such factors of a product, whose velocity is
     in the body, in the usual basis; none of others."""
     group, found, first = problem.group, dict[str, tuple[str, ...]](), 0
-    if group is None or problem.advected is not None or program.dimension < group.dimension:
+    if group is None or problem.advected is not None:
+        return found
+    velocity = program.state[_moving(problem, program)]
+    if len(velocity) < group.dimension:
         return found
     if problem.lagrangian and problem.lagrangian.trivialisation != "left":
         return found
-    velocity = program.state[_moving(problem, program)]
     for k, (offset, factor) in enumerate(group.places, 1):
         own = slice(first, first + factor.dimension)
         first = own.stop

@@ -696,6 +696,16 @@ def test_a_number_by_chance_is_no_cause(scale, words, capsys, tmp_path):
     assert "kappa" not in told.out
 
 
+def test_a_difference_that_is_small_has_no_cause_by_chance(capsys, tmp_path):
+    """A force of no kind that we have, of a few 1e-9 beside the others."""
+    line = "    moment = moment - np.cross(c, force)"
+    stray = (line, f"    force = force + 2e-8 * np.sin(w * w + 3)\n{line}")
+    code, told = compared(capsys, tmp_path, "drone", stray)
+    assert code == 1
+    cause = "  no change of our equations that was tried explains this"
+    assert told.out.splitlines()[1:] == [cause]
+
+
 @pytest.mark.parametrize("where", ["best", "pairs", "terms"])
 def test_what_is_known_when_the_time_is_over(where, capsys, tmp_path, monkeypatch):
     """The difference first, and the nearest cause of those that were tried."""

@@ -27,6 +27,16 @@ def gyrostat(x):
     return np.concatenate([dq, dw])
 
 
+def bob(x):
+    """Newton's: a bob of length 0.8 on the third axis, n in space; A and ω with ω₃ = 0."""
+    A, w = x[:9].reshape(3, 3), np.array([x[9], x[10], 0.0])
+    n, rate = A @ E3, A @ np.cross(w, E3)
+    weight = np.array([0, 0, -9.81])
+    bend = (weight - (weight @ n) * n) / 0.8 - (rate @ rate) * n
+    seen = A.T @ bend - np.cross(w, np.cross(w, E3))
+    return np.concatenate([(A @ hat(w)).ravel(), [-seen[1], seen[0]]])
+
+
 def charged(x):
     """Larmor's: x is A by columns and the angular velocity; momenta p = Iw + b K g / 2."""
     A, w = x[:9].reshape(3, 3).T, x[9:]
