@@ -229,7 +229,9 @@ def _multiplier(curve: list[tuple[float, float]]) -> Scene:
     (end, _), (low, high) = curve[-1], ([f(y for _, y in curve) for f in (min, max)])
     frame = Frame((7.0, 6.0), (32.0, 22.0), (0.0, min(low, 0.0)), (end, high))
     times = numbered(range(0, int(end) + 1, 2))
-    strokes, labels = frame.axes((Label("t"), Label("θ")), times, {0.0: "0"}, 0)
+    unit = 10.0 ** math.floor(math.log10(high))
+    levels = numbered((0.0, unit * math.floor(high / unit)))
+    strokes, labels = frame.axes((Label("t"), Label("θ")), times, levels, 0)
     strokes.append(frame.curve(curve, AXES[0]))
     return panel((46, 36), strokes, labels)
 
@@ -342,7 +344,7 @@ def _ellipsoid(claims: Claims, moments: Vector) -> Scene:
     strokes.append(_outline(view, image, eye))
     for k in range(3):
         circles = [_combined(UNITS[k - 2], UNITS[k - 1], x) for x in TURN]
-        strokes += view.on_surface(circles, image, front, AXES[k], "thin")
+        strokes += view.on_surface(circles, image, front, "axis", "thin")
     polhode = [tuple(x / a for x, a in zip(m[0], axes, strict=True)) for m in motion]
     strokes += view.on_surface(polhode, image, front, "body")
     centre, contact = view.at((0.0, 0.0, 0.0)), view.at(placed(START))

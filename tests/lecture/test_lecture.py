@@ -116,7 +116,7 @@ def test_a_function_of_the_time_has_the_rate_beside_it(said):
 
 def test_the_separatrix_of_the_racket_is_tried():
     solved = [e for c in CHAPTERS for e in c.entries if e.solved]
-    assert [show(e.equations[1].rhs) for e in solved] == ["ω tanh(σt)"]
+    assert [show(e.equations[1].rhs) for e in solved] == ["ω tanh(σt)", "−r tanh(rt)"]
 
 
 HEAD = "chapter c\n  A chapter\n  Un chapitre\nrecords so3\n\n"

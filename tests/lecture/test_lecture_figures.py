@@ -239,6 +239,23 @@ def test_a_caption_says_the_numbers_of_its_figure():
     assert {f"{x} = {Fraction(str(y))}" for x, y in drawn.items()} <= said
 
 
+@pytest.mark.parametrize(
+    ("label", "starts"),
+    [
+        ("tetrahedron", motion_figures.VELOCITY),
+        ("ellipse", motion_figures.STRAIN),
+        ("carried", [group_figures.CIRCLE[:2]]),
+    ],
+)
+def test_a_caption_says_from_where_its_figure_starts(label, starts):
+    (figure,) = (b for b in FIGURES if b.label == label)
+    english, french = map(str, figure.entries[1].texts)
+    for row in starts:
+        numbers = [f"{x:g}".replace("-", "−") for x in row]
+        assert f"({', '.join(numbers)})" in english
+        assert f"({' ; '.join(numbers)})".replace(".", ",") in french
+
+
 def test_after_how_many_turns_the_racket_flips():
     """A quarter of the period of ζ₂, K(m)/rate, as in Landau and Lifshitz, § 37, for the deviations
     that the caption tells."""
