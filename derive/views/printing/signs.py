@@ -37,7 +37,10 @@ LETTERS = GREEK | {
     "nabla": "∇", "ell": "ℓ", "vartheta": "ϑ", "varsigma": "ς", "infty": "∞",
 }  # fmt: skip
 """Command of LaTeX (without its backslash) → letter, for commands that are letters."""
-MATH_ACCENTS = {"\u0304": r"\bar", "\u0303": r"\tilde", "\u0307": r"\dot", "\u0302": r"\hat"}
+MATH_ACCENTS = {
+    "\u0304": r"\bar", "\u0303": r"\tilde", "\u0302": r"\hat",
+    "\u0307": r"\dot", "\u0308": r"\ddot",
+}  # fmt: skip
 SYMBOLS = {letter: rf"\{name}" for name, letter in LETTERS.items()} | {
     "Σ": r"\sum", "−": "-", "∧": r"\wedge", "⟨": r"\langle", "⟩": r"\rangle",
     "‖": r"\Vert", "≅": r"\cong", "≠": r"\neq", "≤": r"\le", "≥": r"\ge", "∈": r"\in", "→": r"\to",
@@ -99,6 +102,7 @@ TEXT = {
     "€": r"\texteuro{}", "†": r"\textdagger{}", "‰": r"\textperthousand{}",
 }  # fmt: skip
 """Characters outside formulas → LaTeX; a fraction of mathematics in a title would end TeX."""
+MATH = r"\ensuremath"
 NO_BREAK = "\u00a0\u202f"
 WORD = re.compile(rf"[\S{NO_BREAK}]+")
 
@@ -108,17 +112,16 @@ def tex_text(words: str) -> str:
     shown: list[str] = []
     plain = re.sub(r"([-'`])(?=\1)", "\\1\u200b", " ".join(WORD.findall(words)))
     for c in decomposed(plain):
-        if c in TEXT:
+        if unicodedata.combining(c):
+            shown[-1:] = [_with_mark("".join(shown[-1:]), c)]
+        elif c in TEXT:
             shown.append(TEXT[c])
         elif c == "\u200b":
             shown.append("{}")
-        elif c in TEXT_ACCENTS and shown and re.fullmatch("[A-Za-z]", shown[-1]):
-            base = rf"\{shown[-1]}" if shown[-1] in "ij" else shown[-1]
-            shown[-1] = rf"\{TEXT_ACCENTS[c]}{{{base}}}"
         elif c in TEX_SPECIAL:
             shown.append(TEX_SPECIAL[c])
         elif c in SYMBOLS or c in RAISED or c in LOWERED:
-            shown.append(rf"\ensuremath{{{math_char(c)}}}")
+            shown.append(f"{MATH}{{{math_char(c)}}}")
         elif " " <= c <= "~":
             shown.append(c)
         elif not unicodedata.category(c).startswith(("M", "C")):
@@ -126,9 +129,23 @@ def tex_text(words: str) -> str:
     return "".join(shown)
 
 
+def _with_mark(base: str, mark: str) -> str:
+    """The LaTeX of a letter with a mark over or under it; ``?`` for those that no font has."""
+    composed = unicodedata.normalize("NFC", base + mark)
+    if "À" <= composed <= "ÿ":
+        return composed
+    if mark in TEXT_ACCENTS and re.fullmatch("[A-Za-z]", base):
+        dotless = rf"\{base}" if base in "ij" else base
+        return rf"\{TEXT_ACCENTS[mark]}{{{dotless}}}"
+    if mark in MATH_ACCENTS and base.startswith(MATH):
+        return f"{MATH}{{{MATH_ACCENTS[mark]}{base.removeprefix(MATH)}}}"
+    return "?"
+
+
 def unknown_to_tex(words: str) -> str:
-    """The distinct characters of a text that :func:`tex_text` shows as question marks."""
-    return "".join(dict.fromkeys(c for c in words if c != "?" and "?" in tex_text(c)))
+    """The distinct letters of a text, with their marks, that :func:`tex_text` has as ``?``."""
+    letters = re.findall(r".[\u0300-\u036f]*", words)
+    return "".join(dict.fromkeys(x for x in letters if x != "?" and "?" in tex_text(x)))
 
 
 def markdown_text(words: str) -> str:
