@@ -270,6 +270,7 @@ def known(p: Program) -> dict[str, Any]:
         "TERMS": TERMS,
         "SERIES": _series(),
         "RIGHT": f.right,
+        "LEFT": not f.right,
         "SIGN": 1.0 if f.right else -1.0,
         "BACK": -0.5 if f.right else 0.5,
         "JACOBIAN": f"exp(eta + d) = {'exp(J d) exp(eta)' if f.right else 'exp(eta) exp(J d)'}",

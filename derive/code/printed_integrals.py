@@ -91,11 +91,6 @@ class Duplication:
         scheduler = Scheduler(names, {})
         return {x: scheduler.function(found, leaves) for x, found in roots.items()}
 
-    @property
-    def back_names(self) -> tuple[str, ...]:
-        """The names of the derivatives that go back."""
-        return READ[10:] if self.second else READ[10:13]
-
     def end(self) -> list[Node]:
         """Ψ and its derivatives where the series is its value."""
         g = self.g
@@ -216,7 +211,8 @@ def integrals(
     for name in called:
         d = Duplication(second=name == SLOPES)
         parts: dict[str, Any] = {x: written.part(f) for x, f in d.functions().items()}
-        parts |= {"name": name, "of": BUNDLES[name], "second": d.second, "carried": d.back_names}
+        carried = READ[10:] if d.second else READ[10:13]  # the derivatives that go back
+        parts |= {"name": name, "of": BUNDLES[name], "second": d.second, "carried": carried}
         if language.name in PRINTERS:
             parts |= _printed(parts, language, prefix, written.real)
         found.append(parts)

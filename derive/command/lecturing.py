@@ -16,9 +16,8 @@ from ..language.limits import Refused
 from ..language.show import show
 from ..lecture import document, lecture_text, trials
 from ..lecture.back_matter import Front
-from ..lecture.body_figures import BodyOfLecture
 from ..lecture.fresh_numbers import drawn
-from ..lecture.own_body import OwnBody, place_of
+from ..lecture.own_body import BodyOfLecture, OwnBody, place_of
 from ..lecture.problem_chapter import Found, chapter_of
 from ..lecture.ran_figure import Ran, letter_of
 from ..lecture.recorded_text import OVER, UNSHOWN

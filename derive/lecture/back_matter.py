@@ -45,20 +45,16 @@ Sou | J.-M. Souriau | Structure des systèmes dynamiques | Dunod, 1970
 """
 
 
-def _surname(work: Sequence[str]) -> str:
-    return work[1].partition(",")[0].split()[-1]
-
-
 WORKS: Sequence[Sequence[str]] = sorted(
     (
         *(ON_FLUIDS[0], AUDIN, *ON_STEPS_OF_TIME, (*NOTE[:3], f"{UNPUBLISHED}, {UNDATED}")),
         (*NOTES[:3], f"{NOTES[3]}, http://hermes.univ-mrs.fr/~patrick/"),
         *(x.split(" | ") for x in OWN_WORKS.strip().split("\n")),
     ),
-    key=_surname,
+    key=lambda work: work[1].partition(",")[0].split()[-1],
 )
-"""The works by their authors: key, author, title, where; ``@key``, in small letters, is the number
-of one in the text."""
+"""The works by the surnames of their authors: key, author, title, where; ``@key``, in small
+letters, is the number of one in the text."""
 NUMBERS = {key.lower(): k for k, (key, *_) in enumerate(WORKS, 1)}
 
 

@@ -19,9 +19,9 @@ from ..language.show import show
 from ..language.tree import Tree, replaced
 from ..language.values import elementary
 from ..views.language import LANGUAGES, Language, language
-from .body_figures import turned
 from .lecture_text import ASKED, Block, Chapter, Entry, Formula, LectureError, tree
 from .motion_figures import Top
+from .own_body import turned
 from .sheets import Claims
 
 RANGE = re.compile(r"(−?\d+)…(−?\d+)")

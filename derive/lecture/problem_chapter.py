@@ -23,9 +23,9 @@ from ..views.layout import Reading
 from ..views.outline import declared, system, title
 from ..views.text import formula
 from .common_factors import tidied
+from .displays import NamedSums
 from .figures import Figure
 from .lecture_text import Block, Chapter, Entry, Formula, Given, Words
-from .named_sums import NamedSums
 from .problem_exercises import MOST, coordinate, exercises, off_the_axes
 from .ran_figure import DESCRIBED, FLAT, Ran, label_of, raised, value_at_start, written
 from .recorded_text import (
@@ -45,8 +45,7 @@ from .recorded_text import (
     stated,
     without_advice,
 )
-from .search_sentences import around, momenta, retold, space
-from .steady_sentences import asleep, placed, rows, same_top, steady
+from .search_sentences import around, asleep, momenta, placed, retold, rows, same_top, space, steady
 
 SEARCHES = {
     "symmetries": "What the motion keeps.",

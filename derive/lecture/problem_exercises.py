@@ -19,8 +19,7 @@ from ..record.sentence import Sentence, enumerated, phrase
 from .lecture_text import Block, Entry, Formula, rate_of
 from .ran_figure import Ran, value_at_start, written
 from .recorded_text import SPOKEN, alone, display, in_each, kept_by, kind_of, lecture, stated, words
-from .search_sentences import of_momentum
-from .steady_sentences import SOLIDS, rows
+from .search_sentences import SOLIDS, of_momentum, rows
 
 HAND, MISTAKE, WATCH = "By hand.", "Find the mistake.", "Predict, then watch."
 KEPT = phrase("Show that this is constant along every motion:")

@@ -15,7 +15,7 @@ from ..language.values import approximate
 from ..record.record import Derivation
 from ..views.figure.drawing import Label, Scene
 from ..views.language import Language, told
-from .body_figures import marks
+from .own_body import marks
 from .recorded_text import AXIS, axis_letter
 from .sheets import AXES, Claims, Frame, beside, panel
 

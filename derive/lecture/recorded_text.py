@@ -19,8 +19,8 @@ from ..views.language import LANGUAGES, Language, labelled, language, told
 from ..views.layout import Reading
 from ..views.printing.sentences import FORMULA, QUOTED
 from .common_factors import positive, tidied
+from .displays import NamedSums
 from .lecture_text import Block, Entry, Formula, Tie, Words
-from .named_sums import NamedSums
 
 SPOKEN: tuple[Language, ...] = tuple(map(language, LANGUAGES))
 

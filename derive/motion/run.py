@@ -221,10 +221,6 @@ def _to_parquet(run: Run) -> bytes:
     return file.getvalue()
 
 
-def _from_parquet(data: bytes) -> Run:
-    return _run(*parquet_table(io.BytesIO(data), MARK))
-
-
 def parquet_table(file: Path | io.BytesIO, mark: str) -> tuple[str, Array]:
     """What a table of Arrow says under a mark, and its numbers; ``ValueError``, ``KeyError``."""
     arrow, parquet = pyarrow()
@@ -251,6 +247,6 @@ def pyarrow() -> tuple[Any, Any]:
 FORMATS: dict[str, tuple[Callable[[Run], bytes], Callable[[bytes], Run]]] = {
     ".npz": (_to_npz, _from_npz),
     ".csv": (_to_csv, _from_csv),
-    ".parquet": (_to_parquet, _from_parquet),
+    ".parquet": (_to_parquet, lambda data: _run(*parquet_table(io.BytesIO(data), MARK))),
 }
 """Ending → what makes the bytes of a run, and what reads them."""

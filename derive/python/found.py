@@ -366,7 +366,7 @@ class FirstIntegrals(Finding):
         flow = self.found.system.algebra.flow
         images = (flow.get(i, {}) for i, _ in enumerate(self.x))
         return tuple(
-            sum((self._number(c) * _monomial(self.x, e) for e, c in f.items()), _zero())
+            sympy.Add(*(self._number(c) * _monomial(self.x, e) for e, c in f.items()))
             for f in images
         )
 
@@ -414,7 +414,3 @@ def _symbol(name: str) -> Any:
 
 def _monomial(x: tuple[Any, ...], e: tuple[int, ...]) -> Any:
     return sympy.Mul(*(y**k for y, k in zip(x, e, strict=True)))
-
-
-def _zero() -> Any:
-    return sympy.Integer(0)

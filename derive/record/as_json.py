@@ -148,12 +148,9 @@ def step_data(s: Step) -> dict[str, Any]:
         ],
     }
     if s.claims:
-        data["claims"] = [_claim_data(x) for x in s.claims]
+        told = ((x.kind, {name: encode(y) for name, y in x.values}) for x in s.claims)
+        data["claims"] = [{"says": kind} | values for kind, values in told]
     return data | {"driven": True} if s.driven else data
-
-
-def _claim_data(x: Claim) -> dict[str, Any]:
-    return {"says": x.kind} | {name: encode(value) for name, value in x.values}
 
 
 def _hypothesis_data(x: Hypothesis) -> dict[str, Any]:

@@ -112,11 +112,8 @@ def _sentence(data: Any, where: str, depth: int) -> Sentence:
     # each once: what repeats a place could grow without bound when it is filled
     if places and sorted(PLACE.findall(message)) != sorted(places):
         raise ValueError(f"{where}: 'places' must be those of the message, each in it once")
-    return Sentence(message, tuple((name, _filling(x, where, depth)) for name, x in places.items()))
-
-
-def _filling(data: Any, where: str, depth: int) -> Sentence | str:
-    return data if isinstance(data, str) else _sentence(data, where, depth + 1)
+    read = (x if isinstance(x, str) else _sentence(x, where, depth + 1) for x in places.values())
+    return Sentence(message, tuple(zip(places, read, strict=True)))
 
 
 # Claims.

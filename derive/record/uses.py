@@ -47,15 +47,12 @@ def _collect(t: Tree, found: list[Occurrence]) -> None:
         found.append(Occurrence((t[1], "member")))
     elif isinstance(t, tuple) and t[0] != "par":
         if t[0] == "call":
-            found.append(Occurrence(_usage_of_head(t[1]), t[2:]))
+            # a function, or a member of a family of functions
+            head: Usage = (t[1], "function") if isinstance(t[1], str) else (t[1][1], "moved")
+            found.append(Occurrence(head, t[2:]))
         for part in TREE_OPERANDS.get(t[0], lambda x: x[1:])(t):
             if isinstance(part, (str, tuple)):
                 _collect(part, found)
-
-
-def _usage_of_head(head: Any) -> Usage:
-    """The use that the head of a call is: a function, or a member of a family of functions."""
-    return (head, "function") if isinstance(head, str) else (head[1], "moved")
 
 
 def position_of(type_: Type) -> str:

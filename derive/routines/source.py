@@ -242,7 +242,7 @@ class _Known(ast.NodeTransformer):
     def visit_Name(self, x: ast.Name) -> ast.expr:
         """A number that is known; other names stay, as the language says them."""
         value = self.given.get(x.id)
-        return ast.Constant(value) if type(value) in (int, float) else x
+        return ast.Constant(value) if type(value) in (int, float, bool) else x
 
     def visit_Subscript(self, x: ast.Subscript) -> ast.expr:
         """An entry of a table that is known."""

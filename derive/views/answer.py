@@ -404,14 +404,9 @@ def _station(d: Derivation, name: str, has: Callable[[Step, Equation], bool]) ->
 def station_mathml(d: Derivation, x: Station) -> str:
     """The formula of a station as MathML, without the terms that go too far; of the body in the
     plane by its angle, as in the answer."""
-    typeset = partial(formula_of, names=ANGLE | latex_names(d))
+    typeset = partial(of_tree, names=ANGLE | latex_names(d), notation=Notation())
     rhs = by_angle(d)(x.equation.rhs) if x.name == "body" else x.equation.rhs
     return _short(typeset(x.equation.lhs), rhs, typeset).plain().mathml()
-
-
-def formula_of(t: Tree, names: dict[str, str]) -> Formula:
-    """A tree as it is printed in a walk."""
-    return of_tree(t, names=names, notation=Notation())
 
 
 def _short(lhs: Formula, rhs: Tree, typeset: Callable[[Tree], Formula]) -> Formula:

@@ -10,6 +10,7 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from itertools import groupby
+from typing import Any
 from unicodedata import normalize
 
 from ..language.tree import Tree, names
@@ -253,7 +254,9 @@ def as_text(
         holds = word(f.holds) if f.holds else None
         texts = (f.printed, derived, holds, example, word(f.remark))
         for head, text in zip(heads, texts, strict=True):
-            lines += _indented(f"{head:{wide}}  ", text, width) if text else []
+            first = f"     {head:{wide}}  "
+            fill: dict[str, Any] = {"initial_indent": first, "subsequent_indent": " " * len(first)}
+            lines += textwrap.wrap(text or "", width, break_long_words=False, **fill)
     counts = Counter(f.verdict for f in findings)
     numbers = {x.split()[0]: str(counts[x]) for x in VERDICTS}
     return "\n".join([*lines, "", *textwrap.wrap(word(TOTAL, **numbers), width)]) + "\n"
@@ -290,13 +293,3 @@ def _short(value: str) -> str:
     square = all(len(row) == len(rows) for row in rows)
     one = [["1" if i == j else "0" for j in range(len(rows))] for i in range(len(rows))]
     return "1" if square and rows == one else value
-
-
-def _indented(head: str, text: str, width: int) -> list[str]:
-    return textwrap.wrap(
-        text,
-        width,
-        initial_indent=f"     {head}",
-        subsequent_indent=" " * (5 + len(head)),
-        break_long_words=False,
-    )

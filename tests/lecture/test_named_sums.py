@@ -3,9 +3,8 @@
 import math
 
 from derive.language.tree import replaced
-from derive.lecture.displays import WIDTH, blocks, sides
+from derive.lecture.displays import WIDTH, NamedSums, blocks, sides
 from derive.lecture.lecture_text import tree
-from derive.lecture.named_sums import NamedSums
 from derive.lecture.problem_exercises import between
 from derive.lecture.search_sentences import WORDS, retold
 from derive.record.record import Equation

@@ -11,9 +11,8 @@ from scipy.special import ellipk
 from derive.command.lecturing import about, chapter_on, motion
 from derive.command.showing import derive
 from derive.lecture import document
-from derive.lecture.body_figures import BodyOfLecture, marks, theory
 from derive.lecture.lecture_text import Given, parsed
-from derive.lecture.own_body import RacketStaysError, body_of
+from derive.lecture.own_body import BodyOfLecture, RacketStaysError, body_of, marks, theory
 from derive.lecture.ran_figure import Ran, label_of
 from derive.pipeline import walk
 from derive.problem.toml import problem_of

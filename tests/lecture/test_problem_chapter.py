@@ -34,7 +34,7 @@ from derive.lecture.ran_figure import FLAT, Ran
 from derive.lecture.recorded_text import REASONS, claimed, kept_by
 from derive.lecture.recorded_text import reason as told_reason
 from derive.lecture.recorded_text import words as words_of_record
-from derive.lecture.steady_sentences import SAID, TURNS, _odd_one, as_top
+from derive.lecture.search_sentences import SAID, TURNS, _odd_one, as_top
 from derive.lecture.trials import tied, tried
 from derive.motion.simulate import run
 from derive.motion.trajectory import Method

@@ -170,10 +170,6 @@ def others_squared(found: tuple[int, int], claim: Claim) -> str:
     return f"it has {found[0]} positive and {found[1]} negative squares"
 
 
-def _none(system: ReducedSystem, step: Step, claim: Claim) -> str:
-    return has_multiples(point_of(system, step))
-
-
 def has_multiples(point: ClaimedEquilibrium) -> str:
     """That the derivative of the energy is a combination of those of what is kept; "" where it is
     none."""
@@ -272,7 +268,7 @@ PROVED = {f"equilibrium.{x}" for x in VERDICTS} - {"equilibrium.indefinite"}
 JUDGES: dict[str, Judge] = {
     "equilibrium.at": _at,
     "equilibrium.origin": _at,
-    "equilibrium.none": _none,
+    "equilibrium.none": lambda system, step, claim: has_multiples(point_of(system, step)),
     "equilibrium.orbit": _orbit,
     "equilibrium.form": _form,
     "equilibrium.squares": _exact_squares,

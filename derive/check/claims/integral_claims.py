@@ -201,17 +201,18 @@ def _multiple(system: ReducedSystem, step: Step, claim: Claim) -> str:
     return "" if conserved else "they are no multiples of it"
 
 
-def _complete_there(there: ResiduePoint, step: Step, claim: Claim) -> str:
-    """The rank, and half as many in involution among all integrals and those of a step."""
+def _complete_there(system: ReducedSystem, step: Step, claim: Claim) -> str:
+    """The rank, and half as many in involution among all integrals and those of a step, on its
+    level, or under its condition."""
+    if claim.kind == "level.complete":
+        there = system.place(level=_level_of(system, step))
+    else:
+        there = system.place(values=_condition_of(step))
     if reason := _size_fault(there, claim):
         return reason
-    every = (*there.system.integrals, *rates_of(step))
+    every = (*system.integrals, *rates_of(step))
     found = in_involution(there, every, there.poisson_rank // 2)
     return "" if found else "there are not as many in involution"
-
-
-def _complete_on_level(system: ReducedSystem, step: Step, claim: Claim) -> str:
-    return _complete_there(system.place(level=_level_of(system, step)), step, claim)
 
 
 def _rows(t: Tree) -> tuple[Tree, ...]:
@@ -244,15 +245,12 @@ def _under(system: ReducedSystem, step: Step, claim: Claim) -> str:
     return "" if conserved else "a polynomial is no integral under it"
 
 
-def _complete_under(system: ReducedSystem, step: Step, claim: Claim) -> str:
-    return _complete_there(system.place(values=_condition_of(step)), step, claim)
-
-
 def _further(system: ReducedSystem, step: Step, claim: Claim) -> str:
-    """Each condition has a step, with polynomials that are none in the generic ones."""
+    """Each condition, if there is one, has a step, with polynomials that are none in the generic
+    ones."""
     grading, most = weights(system), number(claim["degree"])
     degrees = dict(zip(system.variables, grading, strict=True))
-    cases = listed(claim["conditions"])
+    cases = listed(claim["conditions"]) if claim.kind == "first_integrals.further" else ()
     if not _same_degree(system, claim):
         return "all integrals are told up to another degree"
     if len(cases) != len(system.conditions):
@@ -267,14 +265,6 @@ def _same_degree(system: ReducedSystem, claim: Claim) -> bool:
     """Is the degree that up to which all integrals are told?"""
     upper_bounds = (x for x in system.claims if x.kind.startswith("first_integrals.all"))
     return [claim["degree"]] == [x["degree"] for x in upper_bounds]
-
-
-def _no_further(system: ReducedSystem, step: Step, claim: Claim) -> str:
-    if system.conditions:
-        return f"{len(system.conditions)} steps tell such polynomials"
-    if not _same_degree(system, claim):
-        return "all integrals are told up to another degree"
-    return _elsewhere(system, step, claim)
 
 
 POINTS, LARGEST = 8, 3
@@ -408,13 +398,13 @@ JUDGES: dict[str, Judge] = {
     "first_integrals.still": _still,
     "first_integrals.unknown_rank": _unknown_rank,
     "first_integrals.further": _further,
-    "first_integrals.no_further": _no_further,
+    "first_integrals.no_further": _further,
     "first_integrals.unsolved": _unsolved,
     "level.multiple": _multiple,
-    "level.complete": _complete_on_level,
+    "level.complete": _complete_there,
     "condition.one": _under,
     "condition.several": _under,
-    "condition.complete": _complete_under,
+    "condition.complete": _complete_there,
 }
 """How claims are judged of equations that are Hamiltonian, with the Casimirs and the integrals that
 are recorded."""

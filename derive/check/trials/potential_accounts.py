@@ -46,11 +46,6 @@ class Account:
 # Any U of the time and the places.
 
 
-def any_energy_energy(at: PotentialData, p: Data, r: Places, _masses: Masses) -> Any:
-    """Its value."""
-    return at.value(p["U"], r)
-
-
 # U = −Σ m_i μ / ‖r_i − centre‖.
 
 
@@ -376,7 +371,7 @@ def by_distances(radial: Callable[..., Iterator[Distance]]) -> Callable[..., Any
 
 
 ACCOUNTS: dict[str, Account] = {
-    "expression": Account(any_energy_energy),
+    "expression": Account(lambda at, p, r, _: at.value(p["U"], r)),
     "attraction": Account(by_distances(attraction_radial), radial=attraction_radial),
     "far_centre": Account(far_centre_energy, values=far_centre_values, of_body_axes=True),
     "field": Account(field_energy),

@@ -160,13 +160,10 @@ class StageModes:
             upper = sorted((k for k in span if values[k].imag > 0), key=lambda k: values[k].imag)
             into = [[V[0, k] * inverse[k, i] for i in span] for k in upper]
             back = [[2 * V[i, k] / V[0, k] for i in span] for k in upper]
-            pairs = [[*map(_pair, row)] for row in (*into, *back, [values[k] for k in upper])]
+            rows = (*into, *back, [values[k] for k in upper])
+            pairs = [[(float(x.real), float(x.imag)) for x in row] for row in rows]
         half = len(upper)
         return cls(pairs[-1], pairs[:half], pairs[half:-1])
-
-
-def _pair(x: Any) -> tuple[float, float]:
-    return float(x.real), float(x.imag)
 
 
 # Explicit methods.

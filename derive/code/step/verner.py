@@ -55,17 +55,12 @@ def verner() -> Pair:
     return found
 
 
-def chosen_nodes() -> Row:
-    """The nodes that are free."""
-    return {1: ZERO} | {i: Decimal(x) for i, x in FREE.items()}
-
-
 @dataclass
 class Pair:
     """Nodes c, rows of a, weights b and b̂, and for each power of θ, from the first, the weights of
     the interpolant; zeros of a row are left out."""
 
-    c: Row = field(default_factory=chosen_nodes)
+    c: Row = field(default_factory=lambda: {1: ZERO} | {i: Decimal(x) for i, x in FREE.items()})
     a: dict[int, Row] = field(default_factory=lambda: {1: {}})
     b: Row = field(default_factory=dict)
     embedded: Row = field(default_factory=dict)

@@ -132,10 +132,7 @@ def update_left(
     H: real[N_OBSERVED, N_ALGEBRA]
     z: real[N_OBSERVED]
     element_of(x, G)
-    if RIGHT:
-        slopes(G, o, 1.0, True, H)
-    else:
-        slopes(G, o, 1.0, False, H)
+    slopes(G, o, 1.0, RIGHT, H)
     innovation(G, o, Y, z)
     corrected(x, z, H, N, y)
 
@@ -155,10 +152,7 @@ def update_right(
     z: real[N_OBSERVED]
     element_of(x, G)
     inverse_of(G, B)
-    if RIGHT:
-        slopes(B, o, -1.0, False, H)
-    else:
-        slopes(B, o, -1.0, True, H)
+    slopes(B, o, -1.0, LEFT, H)
     innovation(B, o, Y, z)
     corrected(x, z, H, N, y)
 

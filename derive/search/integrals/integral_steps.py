@@ -42,8 +42,9 @@ def told(
         found.append(_casimirs(result, reduced, c))
     found.append(_integrals(result, reduced, c))
     found += [_on_level(result, on, reduced, k, c) for k, on in enumerate(result.levels)]
-    if result.conditions:
-        found += told_conditions(result, result.conditions, reduced, c)
+    under = result.conditions
+    for k, x in enumerate(under.conditions if under else (), 1):
+        found.append(_under(result, under, x, reduced, f"condition_{k}", c))
     return tuple(found)
 
 
@@ -172,16 +173,6 @@ def _on_level(result: IntegralsFound, on: OnLevel, reduced: Step, k: int, c: Cha
 #
 # d/dt F is a sum of multiples of p − s for the letters p that are solved, s being their values:
 # it vanishes in the case p = s.
-
-
-def told_conditions(
-    result: IntegralsFound, found: ParameterConditions, reduced: Step, c: Chapter
-) -> list[Step]:
-    """A step for each condition, with the integrals that there are under it."""
-    return [
-        _under(result, found, x, reduced, f"condition_{k}", c)
-        for k, x in enumerate(found.conditions, 1)
-    ]
 
 
 def _under(

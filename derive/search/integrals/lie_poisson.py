@@ -250,15 +250,12 @@ def monomial_order(e: Exponents) -> tuple[int, list[int]]:
     return -sum(e), [-k for k in e]
 
 
-def sorted_terms(terms: Iterable[tuple[Exponents, Any]]) -> list[tuple[Exponents, Any]]:
-    """Terms of a polynomial, what is added before what is taken away."""
-    return sorted(terms, key=lambda x: (x[1] < 0, monomial_order(x[0])))
-
-
 def in_letters(letters: Iterable[str], f: Mapping[Exponents, Any]) -> Tree:
-    """A polynomial in letters, π and parameters, as a tree."""
+    """A polynomial in letters, π and parameters, as a tree: what is added before what is taken
+    away."""
     names: list[Tree] = [x if x == "π" else ("par", x) for x in letters]
-    return add(*(mul(plain(y), *powers(names, m)) for m, y in sorted_terms(f.items())))
+    terms = sorted(f.items(), key=lambda x: (x[1] < 0, monomial_order(x[0])))
+    return add(*(mul(plain(y), *powers(names, m)) for m, y in terms))
 
 
 def powers(names: Sequence[Tree], exponents: Exponents) -> list[Tree]:

@@ -117,13 +117,6 @@ MOST_PRIMES = 2000
 """So many primes are tried, of which half have each root."""
 
 
-def leaves_of(t: Tree) -> frozenset[Tree]:
-    """The parameters in an expression, and π."""
-    return frozenset(
-        x for x in nodes(t) if x == "π" or (isinstance(x, tuple) and x and x[0] == "par")
-    )
-
-
 def is_root(t: Tree) -> bool:
     """Is it a square root?"""
     return isinstance(t, tuple) and t[:2] == ("fun", "sqrt")
@@ -142,7 +135,7 @@ class ParameterValues:
             x for x in seen if isinstance(x, tuple) and x[:1] == ("fun",) and of_parameters(x)
         )
         self.roots = tuple(x for x in self.functions if is_root(x))
-        self.roots_of_numbers = tuple(x for x in self.roots if not leaves_of(x))
+        self.roots_of_numbers = tuple(x for x in self.roots if not {*self.letters} & {*nodes(x)})
 
     @cached_property
     def primes(self) -> tuple[int, ...]:

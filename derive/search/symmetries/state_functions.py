@@ -180,7 +180,8 @@ class StateFunctions:
         """A polynomial as a number and factors: powers of leaves, then of sums whose simplest term
         is positive."""
         common = [min(column) for column in zip(*p, strict=True)]
-        rest = p.ring.from_dict({_less(e, common): c for e, c in p.items()})
+        left = ((tuple(n - k for n, k in zip(e, common, strict=True)), c) for e, c in p.items())
+        rest = p.ring.from_dict(dict(left))
         root = _root(rest)
         scale, whole = self._primitive(rest if root is None else root)
         found = self._powers(common)
@@ -223,10 +224,6 @@ class StateFunctions:
     def _powers(self, exponents: Collection[int]) -> list[Tree]:
         pairs = zip(self.leaves, exponents, strict=False)
         return [x if n == 1 else ("pow", x, n) for x, n in pairs if n]
-
-
-def _less(e: Exponents, common: Sequence[int]) -> Exponents:
-    return tuple(n - k for n, k in zip(e, common, strict=True))
 
 
 def _root(p: Any) -> Any:

@@ -313,15 +313,12 @@ def _effective(r: Routhian, made_from: Iterable[Step], c: Chapter) -> Step:
     prose += say("reduction.named") if r.named else ()
     if r.conditions:
         kind = "isotropy" if r.singular_elsewhere and not r.leaves_none else "divided"
-        trees = dict.fromkeys(_unsigned(r.functions.tree(x)) for x in r.conditions)
+        trees: dict[Tree, None] = {}
+        for t in map(r.functions.tree, r.conditions):  # without the minus that they begin with
+            trees[mul(-1, t) if isinstance(t, tuple) and t[:2] == ("mul", -1) else t] = None
         prose += draft.claim(f"reduction.{kind}", conditions=("row", *trees))
         prose += draft.claim("reduction.free") if r.leaves_none else ()
     return draft.step(equations, prose)
-
-
-def _unsigned(t: Tree) -> Tree:
-    """A product without the minus that it begins with."""
-    return mul(-1, t) if isinstance(t, tuple) and t[:2] == ("mul", -1) else t
 
 
 def _square(square: Square, r: Routhian) -> Tree:

@@ -144,7 +144,8 @@ class Panel:
         return [
             (a, b)
             for a, b in combinations(corners, 2)
-            if frozenset((a, b)) not in taken and not _on_one_axis(a, b)
+            if frozenset((a, b)) not in taken
+            and not any(_on_axis(k, a) and _on_axis(k, b) for k in range(3))
         ]
 
     def springs_on(self, k: int) -> list[tuple[float, float]]:
@@ -222,10 +223,6 @@ class Panel:
                 x + ((xx + root) * u + xy * v) / both,
                 y + (xy * u + (yy + root) * v) / both,
             )
-
-
-def _on_one_axis(a: Vector, b: Vector) -> bool:
-    return any(_on_axis(k, a) and _on_axis(k, b) for k in range(3))
 
 
 def _on_axis(k: int, p: Vector) -> bool:
@@ -308,7 +305,8 @@ def _matter(panel: Panel, sheet: Sheet) -> None:
     if outline:
         sheet.strokes += [Stroke(outline, "body", pen) for pen in ("wash", "line")]
     on_paper = {i: panel.to(r) for i, r in panel.at.items()}
-    middle = _mean([panel.to(ORIGIN), *on_paper.values()])
+    shown = [panel.to(ORIGIN), *on_paper.values()]
+    middle = sum(x for x, _ in shown) / len(shown), sum(y for _, y in shown) / len(shown)
     if len(panel.part.points) > 2:
         area = hull([on_paper[i] for i in panel.part.points])
         sheet.strokes.append(Stroke(area, "body", "wash"))
@@ -417,7 +415,3 @@ def _runs(
             if len(run := points[start : k + 1]) > 1:
                 yield flags[k - 1], run
             start = k
-
-
-def _mean(points: Sequence[Point]) -> Point:
-    return sum(x for x, _ in points) / len(points), sum(y for _, y in points) / len(points)

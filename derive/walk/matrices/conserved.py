@@ -82,7 +82,8 @@ class Given:
             moving = [*found]
             found = (tuple(replaced(x, "t", k) for x in v) for v in moving for k in (0, 1))
             found = (*UNITS, *found)
-        return tuple(x for x in _not_zero(found) if all(_parallel(x, y) for y in self.vectors))
+        pairs = ((x, [wedge(x, y) for y in self.vectors]) for x in _not_zero(found))
+        return tuple(x for x, products in pairs if not _not_zero(products))
 
     def known(self, line: Vector | None, axis: Letter | None = None) -> dict[Letter, Expr]:
         """γ as 0 where it is, or along the letter ``axis`` x of the ``line``; W_r as w, or as
@@ -107,11 +108,6 @@ def _is_zero(t: Tree) -> bool:
         return vanishes(t)
     except ZeroDivisionError:
         return False
-
-
-def _parallel(x: Sequence[Tree], y: Sequence[Tree]) -> bool:
-    """Is x ∧ y = 0?"""
-    return all(_is_zero(t) for t in wedge(x, y))
 
 
 def _turns_into_itself(W: Sequence[Vector], x: Vector) -> bool:
