@@ -7,6 +7,7 @@ import re
 import unicodedata
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from shlex import quote
 
 from ..language.read import FormulaError
 from ..language.tree import names
@@ -76,16 +77,22 @@ the same name."""
 
 
 def homes(chapters: Sequence[Chapter], records: Mapping[str, Derivation]) -> dict[str, list[str]]:
-    """How the labels in the margins begin → the commands that print these steps; not of chapters on
-    a reader's own problems, whose files have names of their own."""
-    found: dict[str, list[str]] = {}
+    """How the labels in the margins begin → the commands that print these steps."""
+    found: dict[str, dict[str, str]] = {}
     steps = {name: {s.label for s in d.steps} for name, d in records.items()}
-    for chapter in (c for c in chapters if c.of_course):
+    for chapter in chapters:
         for label in (x for e in chapter.entries for x in e.labels):
-            places = found.setdefault(label.partition(".")[0], [])
+            places = found.setdefault(label.partition(".")[0], {})
             if not any(label in steps[name] for name in places):
-                places.append(next(name for name in chapter.problems if label in steps[name]))
-    return {x: [*map(_printing, places)] for x, places in sorted(found.items())}
+                name = next(name for name in chapter.problems if label in steps[name])
+                # of a problem of the reader's as that was called
+                own = (
+                    name
+                    if chapter.of_course
+                    else name.replace(chapter.name, quote(chapter.file), 1)
+                )
+                places[name] = _printing(own)
+    return {x: [*places.values()] for x, places in sorted(found.items())}
 
 
 def _printing(name: str) -> str:

@@ -149,6 +149,7 @@ def _whole(x: Lecture, medium: Medium) -> dict[str, object]:
         chapters = [replace(c, blocks=x) for c, x in zip(chapters, asked, strict=True)]
     listed = letters(chapters, x.records, language)
     table = [setter.letter(letter, k) for k, letter in enumerate(listed)]
+    printed = homes(chapters, x.records)
     works = [(*by, ", ".join(map(language.word, where.split(", ")))) for *by, where in WORKS]
     return {
         "language": language.name,
@@ -159,7 +160,7 @@ def _whole(x: Lecture, medium: Medium) -> dict[str, object]:
         "solutions": x.solutions,
         "chapters": [setter.chapter(c, numbers) for c in chapters],
         "letters": table,
-        "homes": homes(chapters, x.records),
+        "homes": {medium.text(y): [*map(medium.text, told)] for y, told in printed.items()},
         "works": [(key.lower(), *map(medium.text, told)) for key, *told in works],
     }
 
