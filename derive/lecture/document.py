@@ -42,6 +42,8 @@ COMMAND = "derive "
 """How what is typed begins."""
 LISTED = re.compile(r"(?<=\d\u202f;) (?=\d)")
 """The space between two numbers of a list in French."""
+MEASURED = re.compile(r"(\d[.,]\d+) (?=[^\W\d])")
+"""A decimal before a word, as its unit."""
 TIED = re.compile(r"(?<=\w|\.) $")
 """The space between a word and a number, where no line breaks."""
 CAPITAL = re.compile("<mi>([Α-Ω])</mi>")
@@ -304,6 +306,7 @@ class _Setter:
 
     def spaced(self, words: str) -> str:
         """Words in the medium, with the spaces before and after."""
+        words = MEASURED.sub(rf"\1{NO_BREAK[0]}", words)
         if self.language.name == "fr":
             words = LISTED.sub(NO_BREAK[0], typeset_french(words))
         inside = words.strip(" ")
