@@ -6,6 +6,7 @@ import re
 import textwrap
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
+from pathlib import Path
 from typing import Any
 
 from ..algebra.factor_charts import QUATERNION, FactorChart, factor_charts
@@ -23,6 +24,14 @@ from .reader import RecordReader
 from .slots import order, still_slots
 from .state import StateSpace
 
+_LINES = Path(__file__).with_suffix(".txt").read_text(encoding="utf-8").split("\n")
+TOLD = dict(x.split(": ", 1) for x in _LINES if x and x[0] != "#")
+
+
+def said(label: str, /, **places: object) -> str:
+    """A sentence of the text beside this file, its places filled."""
+    return TOLD[label].format(**places)
+
 
 def conventions(
     group: Group, problem: Mapping[str, Any], options: Options, frame: Mapping[str, Any] | None
@@ -37,26 +46,18 @@ def conventions(
     lines = _factors(group, written, charts)
     lines += _still(group, charts) if options.state == "moving" else []
     if options.velocity == "tangent":
-        lines.append(
-            "The names that end in _dot are the entries of the velocity dg/dt; the basis below is"
-        )
-        lines.append("that of the Lie algebra, in which the linearised equations are written.")
+        lines += textwrap.wrap(said("tangent"), 88)
     elif (side := problem.get("lagrangian", {}).get("trivialisation")) is not None:
         moved = "g^-1 dg/dt" if side == "left" else "(dg/dt) g^-1"
-        lines.append(f"zeta are the coordinates of Z = {moved} in the basis below.")
+        lines.append(said("coordinates", moved=moved))
         lines += _held(problem["lagrangian"].get("held", ()))
     elif group.turns_space and not group.user_basis:
-        lines.append(
-            "zeta is the angular velocity in the body frame: dA/dt = A j(zeta), j(x) y = x cross y."
-        )
-    elif not group.affine or group.user_basis:
-        lines.append("zeta are the coordinates of Z = g^-1 dg/dt in the basis below.")
+        lines.append(said("angular_velocity"))
     else:
-        lines.append("zeta are the coordinates of Z = A^-1 dA/dt in the basis below.")
+        linear = group.affine and not group.user_basis
+        lines.append(said("coordinates", moved="A^-1 dA/dt" if linear else "g^-1 dg/dt"))
     if group.in_user_basis.free_translations and options.velocity == "body":
-        lines.append(
-            "w is the velocity of the body's origin (r = 0) in the body frame: dT/dt = A w."
-        )
+        lines.append(said("w"))
     driving = (line for x in inputs for line in _input(group, x, places))
     read = (line for x in problem.get("outputs", ()) for line in _output(x, places))
     framed = _frame(group, frame, bool(inputs)) if frame else ()
@@ -85,12 +86,7 @@ def _held(coordinates: Sequence[int]) -> list[str]:
     if not coordinates:
         return []
     names = ", ".join(f"zeta_{a}" for a in coordinates)
-    text = (
-        f"There is no {names} in the state: it is 0. L has symmetries without kinetic energy, so "
-        "that the motion is one of the quotient of the group by them; which g of a class it takes "
-        "says nothing."
-    )
-    return textwrap.wrap(text, 92)
+    return textwrap.wrap(said("held", names=names), 92)
 
 
 def _reduced(problem: Mapping[str, Any], inputs: Iterable[Mapping[str, Any]]) -> tuple[str, ...]:
@@ -98,18 +94,10 @@ def _reduced(problem: Mapping[str, Any], inputs: Iterable[Mapping[str, Any]]) ->
     left = problem["lagrangian"]["trivialisation"] == "left"
     moved = "g^-1 dg/dt" if left else "(dg/dt) g^-1"
     carried = ", ".join(x["name"] for x in problem["advected"])
-    text = (
-        "The state is that of the reduced equations: it has no element g of the group. zeta are "
-        f"the coordinates of Z = {moved} in the basis of the algebra, for which the matrices "
-        f"E_a below stand; who wants an element of their group integrates "
-        f"dg/dt = {'g Z' if left else 'Z g'}."
-    )
+    text = said("reduced", moved=moved, rate="g Z" if left else "Z g")
     if carried:
-        text += (
-            f" The algebra carries along, in this order, {carried}: "
-            f"d{carried.split(', ')[0]}/dt = {'-' * left}rho(Z) {carried.split(', ')[0]}, rho its "
-            "representation."
-        )
+        first = carried.split(", ")[0]
+        text += " " + said("carried", names=carried, first=first, sign="-" * left)
     driven = (
         _of_scalar(x["name"])
         if x["kind"] == "scalar"
@@ -123,11 +111,7 @@ def _lengths(problem: Mapping[str, Any]) -> list[str]:
     """The sentences about springs of natural length l ≠ 0, which have no direction at length 0."""
     if not any(p.get("length", 0) != 0 for p in problem.get("potentials", [])):
         return []
-    text = (
-        "Where the ends of a spring meet, its natural length must be 0: else its force has no "
-        "direction there, and rhs is not a number; with length 0 it is linear, there too."
-    )
-    return textwrap.wrap(text, 92)
+    return textwrap.wrap(said("lengths"), 92)
 
 
 def _drift(group: Group, options: Options) -> str:
@@ -146,21 +130,15 @@ def _drift(group: Group, options: Options) -> str:
         left += kept.dimension
     free = charts or any(factor.vectors for _, factor in group.places)
     if not laws and (free or options.state == "moving"):
-        return "No relation ties the entries in the state: there is nothing to project it to."
+        return said("drift_none")
     if not laws:
-        return "Every invertible matrix is in the group: there is nothing to project a state to."
-    text = (
-        f"Integrators err, and the state drifts off the group: project takes it back by one Newton "
-        f"step for {', '.join(laws)}; defect is the sum of the sizes of what these leave."
-    )
+        return said("drift_all")
+    text = [said("drift", laws=", ".join(laws))]
     if left > group.dimension:
-        text += f" They leave a group of dimension {left}, of which this one is a part."
+        text.append(said("drift_part", left=left))
     if options.velocity == "tangent":
-        text += (
-            " Errors in dA/dt grow, on SL(n) exponentially, until nothing is a number: project once"
-            " a step, which takes from dA/dt what leaves the group."
-        )
-    return text
+        text.append(said("drift_tangent"))
+    return " ".join(text)
 
 
 def _relations(kept: Relations, mark: str) -> Iterator[str]:
@@ -189,17 +167,11 @@ def _frame(group: Group, frame: Mapping[str, Any], driven: bool) -> list[str]:
         lines.append(f"r' = {place}, H such that J, the matrix of moments, is {unit}.")
     S = "S " if frame["turned"] else ""
     if frame["turned"]:
-        lines.append(
-            "Space is turned by the rotation S: gravity is along its last axis, up or down."
-        )
+        lines.append(said("turned"))
     law = f"A' = {S}A H^-1" + (f", T' = {S}(T + A s)" if group.affine else "")
     lines.append(f"into_frame takes x there, {law}, and out_of_frame takes it back;")
     inputs = ["inputs_into_frame and inputs_out_of_frame do so with u;"] * driven
-    return [
-        *lines,
-        *inputs,
-        "constants finds H and keeps it in k; equal moments leave a choice to it.",
-    ]
+    return [*lines, *inputs, said("chosen")]
 
 
 def _place(mark: str, g: Group, written: str, chart: FactorChart | None) -> str:
@@ -212,21 +184,15 @@ def _place(mark: str, g: Group, written: str, chart: FactorChart | None) -> str:
         return f"{told}: a point r of the body stands at {A} r{shift} in space."
     if chart.kind == QUATERNION:
         q, zeta = f"q{mark}", "z" if mark else "zeta"
-        return (
-            f"{q} is a unit quaternion, scalar first: a point r of the body stands at {q} r "
-            f"{q}*{shift} in space; d{q}/dt = {q} {zeta} / 2 keeps its norm"
-            f"{', z the vector of its block of Z' * bool(mark)}."
-        )
+        also = ", z the vector of its block of Z" * bool(mark)
+        return said("quaternion", q=q, shift=shift, zeta=zeta, also=also)
     X = " + ".join(
         f"{x} E_{a}" for y in chart.blocks for x, a in zip(y.names, y.members, strict=True)
     )
     turns = " and ".join(x for y in chart.blocks if y.turn for x in y.names)
     by = f"{A} the linear part of" if chart.shifted else f"{A} =" if not g.affine else "the map is"
     counted = f"; whole turns are counted in {turns}" * bool(turns)
-    return (
-        f"{A} is not in the state: a point r of the body stands at {A} r{shift} in space, "
-        f"{by} exp({X}){counted}."
-    )
+    return said("angles", A=A, shift=shift, by=by, X=X, counted=counted)
 
 
 def _factors(group: Group, written: str, charts: Mapping[int, FactorChart]) -> list[str]:

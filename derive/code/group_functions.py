@@ -22,7 +22,7 @@ from ..algebra.groups import Group
 from ..language.rational import Matrix, identity
 from ..record.record import Derivation
 from ..routines import printer_of, text_of
-from .conventions import basis_lines, listed
+from .conventions import basis_lines, listed, said
 from .options import Options
 from .program import Program, refuse_first
 from .slots import OfElement, StateSlot
@@ -47,13 +47,6 @@ OF_FILTER: dict[str, tuple[tuple[str, ...], str]] = {
 
 FLOATS = ("float", "f32", "Float32")
 """What single numbers are called, but in JavaScript, where this work is of doubles."""
-
-GENERAL = (
-    " exp is a chart about 1 of those eta whose eigenvalues, as a matrix, have imaginary parts "
-    "between -pi and pi; log, log_jacobian and local are of what it gives, and are not a number "
-    "where an eigenvalue of g, or of the step from x to y, is negative or 0."
-)
-"""What is said where there are no factors."""
 
 TERMS = 14
 """Terms of a series in −t²: for t² < 4 the next one is below 1e-18 of the first."""
@@ -284,28 +277,18 @@ def _conventions(p: Program) -> list[str]:
     """What a reader of the file must know, in lines."""
     f: GroupFunctions = p.group_functions
     element = f.numbers
-    text = "eta are coordinates in the basis below, exp(eta) = exp(eta_1 E_1 + ...). "
     if f.covariance:
-        text += (
-            f"x and y are states, an estimate g, the first {element} numbers, and a covariance. o "
-            f"has {len(f.origin)} numbers, Y those of A o, or of A^-1 o, that vary: rows "
-            f"{', '.join(str(i + 1) for i in f.observed)}."
-        )
+        rows = ", ".join(str(i + 1) for i in f.observed)
+        found = said("estimate", element=element, origin=len(f.origin), rows=rows)
     else:
-        text += (
-            f"x and y are states, g the first {element} numbers of one, on the group. In retract "
-            f"and local eta has {p.varied} numbers: eta, then what is added to the "
-            f"velocity{' and to masses' * bool(f.masses)}: the coordinates of the linearised "
-            f"equations, of variations delta g = {p.variation} and delta zeta."
-        )
+        masses, own = " and to masses" * bool(f.masses), {"varied": p.varied}
+        found = said("states", element=element, masses=masses, variation=p.variation, **own)
+    text = f"{said('exponential')} {found}"
     if not f.factors:
-        text += GENERAL
+        text += " " + said("general")
     if any(x.turns for x in f.factors):
         turning = "log turns" if f.covariance else "log and local turn"
-        text += (
-            f" {turning} by at most pi; at pi, where two signs are as good, by one of them."
-            " log_jacobian is that of this log."
-        )
+        text += " " + said("turns", turning=turning)
     return [
         *textwrap.wrap(text, 92),
         *listed("  g = (", p.state[:element], ")", 88),

@@ -16,6 +16,7 @@ from ..language.tree import Tree, nodes, replaced
 from ..language.values import value
 from ..record.as_json import decode
 from ..record.record import Derivation
+from .conventions import said
 from .factor import factored
 from .graph import Graph, Node
 from .group_functions import GroupFunctions
@@ -214,12 +215,5 @@ class _Filter:
 def _conventions(x: _Filter) -> tuple[str, ...]:
     """What a reader of the files must know, in lines."""
     moved = "g exp(xi)" if x.side == "left" else "exp(xi) g"
-    text = (
-        f"The state x is an estimate g on {x.group.name}, its entries that vary, and the "
-        "covariance P of its error, the rows of the upper triangle. An element A that moves by the "
-        f"same inputs is {moved}, xi = sum xi_a E_a: the error on the {x.side}. dg/dt = f(g), and "
-        "dP/dt = A P + P A^T + G Q G^T, where d xi/dt = A xi holds exactly for the same inputs: "
-        "error_generator writes A. error_noise writes G, by which noise on the inputs adds to "
-        "that; Q has its spectral densities on the diagonal."
-    )
+    text = said("filter", group=x.group.name, moved=moved, side=x.side)
     return (*textwrap.wrap(text, 92),)

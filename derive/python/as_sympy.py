@@ -80,8 +80,8 @@ class Translation:
             return sympy.Rational(t.numerator, t.denominator)
         if t[0] == "nabla":
             raise ValueError("∇ is an operator of a fluid, which SymPy has not")
-        if t[0] in STRUCTURAL:
-            return getattr(self, STRUCTURAL[t[0]])(*t[1:])
+        if own := getattr(self, f"op_{t[0]}", None):  # not all operands are trees
+            return own(*t[1:])
         return OPERATIONS[t[0]](*map(self.of, t[1:]))
 
     # -- names ---------------------------------------------------------------------------------
@@ -121,11 +121,11 @@ class Translation:
         rows, columns = (*type_[1:], 1)[:2]
         return size.get(rows, rows), size.get(columns, columns)
 
-    def unit(self) -> Any:
+    def op_one(self) -> Any:
         """The unit matrix."""
         return sympy.Identity(self.n)
 
-    def member(self, name: str, *indices: Any) -> Any:
+    def op_at(self, name: str, *indices: Any) -> Any:
         """A member of a family by its index."""
         type_ = self.family(name)[2]
         return self._member(f"{name}_{{}}", indices[0], type_)
@@ -146,12 +146,12 @@ class Translation:
         """An index, counted from 1: a number or a symbol."""
         return sympy.Integer(i) if isinstance(i, int) else _natural(i)
 
-    def entry(self, t: Tree, *indices: Any) -> Any:
+    def op_entry(self, t: Tree, *indices: Any) -> Any:
         """An entry of a matrix, or of a vector by one index."""
         places = [self.index(i) - 1 for i in indices]
         return self.of(t)[(*places, 0)[:2]]
 
-    def sum(self, index: str, body: Tree) -> Any:
+    def op_sum(self, index: str, body: Tree) -> Any:
         """Σ of a number or a matrix over an index."""
         inside, i = self.of(body), self.index(index)
         count = self.span(body, index)
@@ -170,7 +170,7 @@ class Translation:
 
     # -- functions -----------------------------------------------------------------------------
 
-    def call(self, head: Any, *arguments: Tree) -> Any:
+    def op_call(self, head: Any, *arguments: Tree) -> Any:
         """A function at its arguments: a number, or a matrix of the shape that its type says."""
         if isinstance(head, tuple):  # r_i(t)
             type_ = next(x[2][-1] for x in self._types(head[1]) if _moves(x))
@@ -187,16 +187,16 @@ class Translation:
             return FunctionValue(head, values, *shape)
         return sympy.Function(head, commutative=True)(*values)
 
-    def function(self, name: str, x: Tree) -> Any:
+    def op_fun(self, name: str, x: Tree) -> Any:
         """An elementary function."""
         return getattr(sympy, name)(self.of(x))
 
-    def power(self, x: Tree, n: int) -> Any:
+    def op_pow(self, x: Tree, n: int) -> Any:
         """An integer power."""
         base = self.of(x)
         return sympy.MatPow(base, n) if _is_matrix(base) else base**n
 
-    def parameter(self, name: str) -> Any:
+    def op_par(self, name: str) -> Any:
         """A parameter of the problem, the symbol of :class:`derive.python.expressions`."""
         if name not in self.own:
             raise ValueError(f"{name!r} is no parameter of the problem")
@@ -292,14 +292,3 @@ OPERATIONS: dict[str, Callable[..., Any]] = {
     "row": lambda *x: x,
     "matrix": lambda *rows: sympy.ImmutableMatrix(rows),
 }
-STRUCTURAL = {
-    "one": "unit",
-    "at": "member",
-    "entry": "entry",
-    "sum": "sum",
-    "call": "call",
-    "fun": "function",
-    "pow": "power",
-    "par": "parameter",
-}
-"""The methods of operators whose operands are not all trees, or that need the record."""

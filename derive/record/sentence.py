@@ -4,7 +4,7 @@ A message is an English sentence, or a part of one, with places ``{name}``; view
 languages under that very text.  A claim is what a sentence of a step says beside the step's
 equations: it has the key of its sentence in :mod:`derive.record.prose` and a value, a tree, for
 each place that is filled by one; ``("row", …)`` lists several.  The sentence is its rendering, and
-nothing that :data:`CLAIMS` lists is said without one: ``derive check`` computes every claim again.
+nothing that :data:`CLAIMS` has is said without one: ``derive check`` computes every claim again.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from typing import Any
 from ..language.limits import SENTENCE
 from ..language.show import in_sentence
 from ..language.tree import Tree
-from .prose import LISTS, message, messages
+from .prose import LISTS, marked, message, messages
 
 PLACE = re.compile(r"\{([a-z]+)\}")
 
@@ -118,76 +118,11 @@ def _sentence(data: Any, where: str, depth: int) -> Sentence:
 
 # Claims.
 
-KINDS = {
-    "poisson": "group advected weighted weights",
-    "casimirs": "kept all all_large",
-    "first_integrals": (
-        "all all_large all_generic all_generic_large it it_and_casimirs these these_and_casimirs "
-        "dependent complete complete_by_one complete_by_energy undecided still unknown_rank "
-        "further no_further unsolved"
-    ),
-    "level": "multiple complete",
-    "condition": "one several complete",
-    "reduction": (
-        "taken flat curved isotropy divided free quadrature elementary elliptic hyperelliptic "
-        "elementary_squared elliptic_squared hyperelliptic_squared"
-    ),
-    "relation": "left_invariant",
-    "tetrahedron": "affine linear",
-    "symmetries": (
-        "algebra algebra_modulo none open time translation_space rotation_space "
-        "displacement_space deformation_space translation_body rotation_body displacement_body "
-        "deformation_body boost rotation_alone both moving"
-    ),
-    "equilibrium": (
-        "at origin none orbit form stable stable_beyond stable_compact on_the_leaf indefinite "
-        "point unstable unstable_beyond open undecided eigenvalues squares near"
-    ),
-    "family": (
-        "at origin letter positive orbit form stable stable_always on_the_leaf on_the_leaf_always "
-        "indefinite unstable unstable_large unstable_always imaginary"
-    ),
-    "position": "along along_of against against_of lowest lowest_near highest highest_near",
-    "enclosure": "within signs stable unstable open eigenvalues",
-    "trim": (
-        "rest steady corner unique isolated isolated_with_turns isolated_along stable unstable "
-        "open near_rest near_steady near_along near_turned near_turned_on_the_left "
-        "near_velocity near_stable near_unstable near_open"
-    ),
-}
-OF_MASSES = {
-    "body": "symbolic",
-    "pullback": "metric",
-    "kernel": "line",
-    "unique": "span affine_span",
-    "elimination": "mass linear_parts",
-    "euler": "solved",
-    "motion": (
-        "rotation displacement maps maps_of_a_volume affine_maps affine_maps_of_a_volume "
-        "mass_matrix"
-    ),
-}
-OF_ALGEBRA = {
-    "relation": "more",
-    "null": "symmetries",
-    "isomorphism": "onto",
-    "hat": "rotations displacements",
-    "unaligned": "turned displaced",
-    "motion": "lagrangian",
-    "quadric": "stokes layers",
-    "total": "sign",
-}
-
-
-def _keys(kinds: Mapping[str, str]) -> frozenset[str]:
-    return frozenset(f"{subject}.{x}" for subject, names in kinds.items() for x in names.split())
-
-
 SIGNED = "_signed"
 """The end of the key of what is said where masses may be negative."""
-CONDITIONS = _keys(OF_ALGEBRA) | _keys(OF_MASSES) | {f"{x}{SIGNED}" for x in _keys(OF_MASSES)}
+CONDITIONS = marked("(condition)")
 """The claims of the walk, whose values, names and numbers, stand in their sentences."""
-CLAIMS = CONDITIONS | _keys(KINDS)
+CLAIMS = CONDITIONS | marked("(claim)")
 """The keys of the sentences that are claims."""
 
 MONOMIALS = 10_000

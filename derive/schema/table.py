@@ -10,6 +10,7 @@ from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import MISSING, dataclass, fields
 from fractions import Fraction
 from functools import cache
+from pathlib import Path
 from typing import Annotated, Any, ClassVar, NamedTuple, Self, dataclass_transform, get_args
 
 from ..language.reserved import did_you_mean, near_name
@@ -151,72 +152,12 @@ parts in R³ that are not rotations; a homogeneous ellipsoid about the origin, a
 SO(3) or SE(3), nor a product."""
 DETERMINANT: Tree = ("det", "A")
 """What ``det_A`` is in an energy of the volume."""
-OTHER_WORDS = {
-    **dict.fromkeys(("sphere", "globe"), "ball"),
-    **dict.fromkeys(("cube", "cuboid", "brick", "block"), "box"),
-    **dict.fromkeys(("shell", "hollow_sphere"), "hollow_ball"),
-    **dict.fromkeys(("rod", "disk", "disc"), "cylinder"),
-    **dict.fromkeys(("weight", "uniform_gravity"), "gravity"),
-    **dict.fromkeys(("newton", "kepler", "central"), "attraction"),
-    **dict.fromkeys(("gravity_gradient", "satellite"), "far_centre"),
-    **dict.fromkeys(("gas", "pressure", "determinant", "det"), "volume"),
-    **dict.fromkeys(("couple", "moment"), "torque"),
-    **dict.fromkeys(("world", "inertial"), "space"),
-    **dict.fromkeys(("accelerometer", "imu"), "specific_force"),
-    **dict.fromkeys(("gyroscope", "gyro", "angular_velocity", "omega"), "rate"),
-    **dict.fromkeys(("magnetometer", "compass"), "direction"),
-    **dict.fromkeys(("position", "altitude"), "place"),
-    **dict.fromkeys(("value", "initial", "number"), "default"),
-    **dict.fromkeys(("mass", "M"), "m"),
-    **dict.fromkeys(("cm", "cog", "center_of_gravity"), "centre"),
-    **dict.fromkeys(("I_com", "I_cm", "I_cog", "I_c", "I_G"), "I_centre"),
-    **{"c++": "cpp", "cxx": "cpp", "js": "javascript", "py": "python", "rs": "rust", "jl": "julia"},
-}
+WORDS = Path(__file__).with_name("words.txt")
+_LINES = (x.partition(": ") for x in WORDS.read_text(encoding="utf-8").split("\n"))
+_TOLD = [(x, told) for words, _, told in _LINES if words[:1] != "#" for x in words.split()]
+OTHER_WORDS = {x: told for x, told in _TOLD if " " not in told}
 """What others call it."""
-MOMENTS = ("xx", "yy", "zz", "xy", "xz", "yz")
-"""The entries of a tensor, as others write them."""
-
-ELSEWHERE = {
-    **dict.fromkeys(
-        ("com", "center_of_mass", "centre_of_mass"),
-        "the centre of mass is 'centre' in [body] given = { m, centre, I_centre }",
-    ),
-    **dict.fromkeys(
-        (
-            *("inertia", "moment_of_inertia", "inertia_tensor"),
-            *(f"I{x}" for x in MOMENTS),
-            *(f"I{x.upper()}" for x in MOMENTS),
-            *(f"I_{x}" for x in MOMENTS),
-        ),
-        "a tensor of inertia is 'I' or 'I_centre' in [body] given = { m, centre, I_centre }",
-    ),
-    **dict.fromkeys(
-        ("direction", "axis", "magnitude", "value"),
-        "a force is one number times its 'direction', or has all its components at every call, in "
-        "the axes of its 'frame'; the direction of gravity is that of the vector 'g'",
-    ),
-    **dict.fromkeys(
-        ("torque", "moment", "wrench"),
-        'a torque is an [[input]] with kind = "torque"; all components of a wrench are those of '
-        'one with kind = "covector"',
-    ),
-    **dict.fromkeys(
-        ("rpy", "roll", "pitch", "yaw", "euler", "orientation", "quaternion", "rotation"),
-        "a rotation is { axis, angle }, { rpy }, { quaternion } or rows, in a solid and in 'given';"
-        " a motion starts turned by 'rpy', 'quaternion' or 'exp' in [initial]; --attitude "
-        "quaternion is of emitted code",
-    ),
-    **dict.fromkeys(
-        ("constraint", "constraints", "joint", "joints", "nonholonomic", "rolling", "link"),
-        "what holds a body is its group, as SO(3) about a point or one of your own in [group]; "
-        "other constraints, joints between bodies and rolling are not here",
-    ),
-    **dict.fromkeys(
-        ("contact", "contacts", "collision", "impact", "friction", "restitution"),
-        "contacts, impacts and dry friction are not here: an [[event]] ends a motion where a body "
-        "would touch, [[damping]] is viscous",
-    ),
-}
+ELSEWHERE = {x: told for x, told in _TOLD if " " in told}
 """Where a word stands that is often tried, or that it is outside of all this; of no parameter."""
 
 OF_FORCES = ("direction", "axis", "magnitude", "value")

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import groupby
+from pathlib import Path
 from typing import Any
 
 from ..language.show import in_sentence
@@ -27,44 +28,20 @@ ROAD, ROAD_GIVEN, ROAD_BOTH = told("road"), told("road.given"), told("road.both"
 ROAD_DISCRETE, ROAD_OF_ERRORS = told("road.discrete"), told("road.errors")
 PAPER = told("paper")
 
-ON_FLUIDS = (
-    (
-        "Arn",
-        "V. Arnold",
-        "Sur la géométrie différentielle des groupes de Lie de dimension infinie et ses "
-        "applications à l’hydrodynamique des fluides parfaits",
-        "Annales de l’Institut Fourier 16 (1), 1966, 319–361",
-    ),
-    (
-        "EM",
-        "D. G. Ebin, J. Marsden",
-        "Groups of diffeomorphisms and the motion of an incompressible fluid",
-        "Annals of Mathematics 92 (1), 1970, 102–163",
-    ),
-    ("AK", "V. I. Arnold, B. A. Khesin", "Topological Methods in Hydrodynamics", "Springer, 1998"),
-)
-"""Where more is said of fluids."""
-ON_STEPS_OF_TIME = (
-    (
-        "MV",
-        "J. Moser, A. P. Veselov",
-        "Discrete versions of some classical integrable systems and factorization of matrix "
-        "polynomials",
-        "Communications in Mathematical Physics 139 (2), 1991, 217–243",
-    ),
-)
-"""Where more is said of motions in steps of time."""
-REFERENCES = (
-    ("paper", "P. Iglesias-Zemmour", "D’où viennent les équations du mouvement des solides ?", ""),
-    ("Aud", "M. Audin", "Spinning Tops", "Cambridge University Press, 1996"),
-    (
-        "Igl",
-        "P. Iglesias",
-        "Mécanique analytique et géométrie symplectiques",
-        "notes personnelles, 2000",
-    ),
-)
-"""The paper and what it refers to: key, author, title, where."""
+WORKS = Path(__file__).with_name("works.txt")
+
+
+def works(*keys: str) -> tuple[tuple[str, ...], ...]:
+    """The works of these keys: key, authors, title, where."""
+    lines = (x.split("|") for x in WORKS.read_text(encoding="utf-8").split("\n") if "|" in x)
+    known = {x[0]: x for x in (tuple(map(str.strip, y)) for y in lines)}
+    return tuple(known[x] for x in keys)
+
+
+ON_FLUIDS, ON_STEPS_OF_TIME = works("Arn", "EM", "AK"), works("MV")
+"""Where more is said of fluids, and of motions in steps of time."""
+REFERENCES = works("paper", "Aud", "Igl")
+"""The paper and what it refers to."""
 
 DIAGONAL = tuple(
     ("row", *(("entry", "λ", i) if i == j else 0 for j in (1, 2, 3))) for i in (1, 2, 3)
@@ -178,7 +155,7 @@ def plain_conventions(d: Derivation, language: Language = ENGLISH) -> str:
     return both.replace("$", "").replace("𝟏", "1")
 
 
-def references(records: Sequence[Derivation]) -> tuple[tuple[str, str, str, str], ...]:
+def references(records: Sequence[Derivation]) -> tuple[tuple[str, ...], ...]:
     """The works that notes of some records end with."""
     more = (of_fluid, ON_FLUIDS), (discrete, ON_STEPS_OF_TIME)
     return REFERENCES + sum((works for of, works in more if any(map(of, records))), start=())

@@ -34,7 +34,7 @@ N = sympy.Symbol("N", integer=True, positive=True)
 class Exact(Translation):
     """Elementary functions are numbers that the checker draws: symbols here."""
 
-    def function(self, name, x):
+    def op_fun(self, name, x):
         return sympy.Symbol(f"{name}<{x}>")
 
 

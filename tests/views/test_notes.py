@@ -102,7 +102,7 @@ def test_a_fragment_stands_in_a_lecturers_text(said, tmp_path):
     assert "documentclass" not in fragment
     (tmp_path / "so3.tex").write_text(fragment)
     own = {"transpose": r"{#1#2}^{t}", "Tr": r"\mathrm{trace}"}
-    takes = {name: f"[{count}]" if count else "" for name, (count, _, _) in DEFINED.items()}
+    takes = {name: f"[{count}]" if count else "" for name, (_, count, *_) in DEFINED.items()}
     bodies = {name: own.get(name, "#1" if x else "x") for name, x in takes.items()}
     lines = [rf"\newcommand{{\{name}}}{x}{{{bodies[name]}}}" for name, x in takes.items()]
     lecture = (

@@ -2,9 +2,11 @@
 
 A message is its label and, each in an indented line, its English and its French; ``#`` begins a
 comment.  The label of a sentence is ``kernel.line``: that of its step without the chapter, and a
-name, which ends in ``_signed`` where it is said of masses that may be negative.  Formulas stand
-between dollars, which no record has: :func:`unmarked`.  Spaces that French does not break are
-written as ordinary ones (views/language.py).
+name, which ends in ``_signed`` where it is said of masses that may be negative.  Behind it stands
+``(claim)`` where the sentence is computed again whenever a record has it, ``(condition)`` where its
+values stand in the sentence alone (record/sentence.py).  Formulas stand between dollars, which no
+record has: :func:`unmarked`.  Spaces that French does not break are written as ordinary ones
+(views/language.py).
 """
 
 from __future__ import annotations
@@ -59,9 +61,23 @@ def _messages(file: Path) -> list[tuple[int, str, list[str]]]:
 
 
 @cache
+def _with_marks() -> dict[str, tuple[str, ...]]:
+    """Label and mark → the sentence in each of ``LANGUAGES``."""
+    return read(sorted(Path(__file__).parent.glob("*.txt")))
+
+
+@cache
 def sentences() -> dict[str, tuple[str, ...]]:
     """Label → the sentence in each of ``LANGUAGES``."""
-    return read(sorted(Path(__file__).parent.glob("*.txt")))
+    found = {x.partition(" ")[0]: texts for x, texts in _with_marks().items()}
+    assert len(found) == len(_with_marks()), "a label stands twice, with different marks"
+    return found
+
+
+def marked(mark: str) -> frozenset[str]:
+    """The labels with a mark behind them."""
+    pairs = (x.partition(" ") for x in _with_marks())
+    return frozenset(label for label, _, own in pairs if own == mark)
 
 
 @cache

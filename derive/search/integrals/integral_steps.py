@@ -42,9 +42,9 @@ def told(
         found.append(_casimirs(result, reduced, c))
     found.append(_integrals(result, reduced, c))
     found += [_on_level(result, on, reduced, k, c) for k, on in enumerate(result.levels)]
-    under = result.conditions
-    for k, x in enumerate(under.conditions if under else (), 1):
-        found.append(_under(result, under, x, reduced, f"condition_{k}", c))
+    if under := result.conditions:
+        for k, x in enumerate(under.conditions, 1):
+            found.append(_under(result, under, x, reduced, f"condition_{k}", c))
     return tuple(found)
 
 

@@ -23,52 +23,15 @@ from ...record.record import Derivation
 from ..answer import PLANE
 from ..arrows import ORIGIN, TURNING, Arrow, arrows, drawn, legend, with_arrows
 from ..html import visible
-from ..language import ENGLISH, Language
+from ..language import ENGLISH, Language, labelled, told
 from ..outline import capitalised, subtitle, title
 from .moving_body import Data, element, moving_body
 
 if TYPE_CHECKING:
     from ...motion.start import Start
 
-WORDS = {
-    "play": "play",
-    "pause": "pause",
-    "step": "a step on",
-    "back": "a step back",
-    "again": "to the start",
-    "time": "time",
-    "speed": "seconds of the motion in a second",
-    "pace": "speed",
-    "until": "until",
-    "length": "how long the motion goes on",
-    "within": "seen from the body",
-    "controls": "the time",
-    "stage": "the body, turned by dragging or by the arrow keys",
-    "polhode": "The angular velocity in the body",
-    "now": "The angular velocity in the body, and the ellipsoid of its kinetic energy now",
-    "ellipsoid": "The angular velocity in the body: its path, the polhode, on the energy ellipsoid",
-    "velocities": "The velocity in time",
-    "coefficients": "The largest coefficients of the vorticity",
-    "readings": "What is read off the motion",
-    "start": "The velocity at the start",
-    "element": "The configuration at the start",
-    "turned": "It is multiplied by exp(θ₁E₁ + θ₂E₂ + …), E the basis of the Lie algebra.",
-    "parameters": "Parameters",
-    "inputs": "Inputs, held",
-    "reset": "Reset the numbers",
-    "kept": "What is kept",
-    "change": "change",
-    "others": "What is not kept",
-    "energy": "energy",
-    "defect": "distance to the group",
-    "multiplier": "multiplier",
-    "singular": "No body has these numbers",
-    "no_number": "This is no number.",
-    "ended": "The motion cannot go on: a collision, or a motion without bound.",
-    "flat": "Here the body is flat, det A = 0: its points move on, these equations do not.",
-    "keys": "Space plays, ← and → step. Drag turns, two fingers or Ctrl and the wheel zoom, "
-    "double click goes back.",
-}
+OF_PAGE = "page:"
+WORDS = {x.removeprefix(OF_PAGE): told(x) for x in labelled() if x.startswith(OF_PAGE)}
 """The words of a page, by the names that its script has for them."""
 
 NAMES = ("PARAMETERS", "INPUTS", "begin", "gauss_to", "constants", "rhs")

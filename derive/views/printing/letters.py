@@ -226,19 +226,6 @@ def separator(left: Tree, right: Tree) -> Formula:
 # The other views keep standard commands; here each becomes a macro of ``derive.sty``, which the
 # notes contain and a lecturer's own preamble may change.
 
-RENAMED = (
-    (r"\\overline(?=\{)", r"\transposeof"),
-    (r"\\operatorname\{Tr\}", r"\Tr"),
-    (r"\\mathbf\{1\}", r"\unitmatrix"),
-    (r"\\mathsf(?=\{)", r"\parameter"),
-    (r"\\mathrm\{d\}", r"\dd"),
-    (r"\\mathfrak\{g\}", r"\Liealgebra"),
-    (r"\\mathfrak(?=\{)", r"\algebraof"),
-    (r"\\varpi(?![A-Za-z])", r"\Cartanform"),
-    (r"\\delta(?![A-Za-z])", r"\variation"),
-    (r"\\tilde(?![A-Za-z])", r"\pulled"),
-    (r"\\dot(?![A-Za-z])", r"\rate"),
-)
 INDEX = r"'*(?:_(?:\{[^{}]*\}|[A-Za-z0-9]))?'*"
 BAR = re.compile(rf"\\bar(?:\{{((?:[^{{}}]|\{{[^{{}}]*\}})*)\}}|\s+([A-Za-z]))({INDEX})")
 HAT = re.compile(r"\\hatmap\{([^{}]*(?:\{[^{}]*\}[^{}]*)*)\}")
@@ -246,36 +233,40 @@ SKEW = re.compile(r"(?<![A-Za-z_\\{])j\(([^()]*)\)")
 
 DEFINED = {
     "transpose": (
+        "",
         2,
         {"bar": r"\bar{#1}#2", "top": r"{{#1#2}^{\top}}"},
         "the transpose of a letter, its prime or index",
     ),
     "transposeof": (
+        r"\\overline(?=\{)",
         1,
         {"bar": r"\overline{#1}", "top": r"{\left(#1\right)^{\top}}"},
         "the transpose of an expression",
     ),
-    "hatmap": (1, {"j": "j(#1)", "wedge": r"{(#1)^{\wedge}}"}, "the skew matrix of a vector"),
-    "Tr": (0, {"": r"\operatorname{Tr}"}, "the trace"),
-    "unitmatrix": (0, {"": r"\mathbf{1}"}, "the identity"),
-    "parameter": (1, {"": r"\mathsf{#1}"}, "a parameter of the problem"),
-    "dd": (0, {"": r"\mathrm{d}"}, "the exterior derivative, a differential"),
-    "Liealgebra": (0, {"": r"\mathfrak{g}"}, "the Lie algebra"),
-    "algebraof": (1, {"": r"\mathfrak{#1}"}, "a classical Lie algebra"),
-    "Cartanform": (0, {"": r"\varpi"}, "the Cartan form"),
-    "variation": (0, {"": r"\delta"}, "a variation"),
-    "pulled": (1, {"": r"\tilde{#1}"}, "pulled back to the group"),
-    "rate": (1, {"": r"\dot{#1}"}, "the derivative along the motion"),
+    "hatmap": ("", 1, {"j": "j(#1)", "wedge": r"{(#1)^{\wedge}}"}, "the skew matrix of a vector"),
+    "Tr": (r"\\operatorname\{Tr\}", 0, {"": r"\operatorname{Tr}"}, "the trace"),
+    "unitmatrix": (r"\\mathbf\{1\}", 0, {"": r"\mathbf{1}"}, "the identity"),
+    "parameter": (r"\\mathsf(?=\{)", 1, {"": r"\mathsf{#1}"}, "a parameter of the problem"),
+    "dd": (r"\\mathrm\{d\}", 0, {"": r"\mathrm{d}"}, "the exterior derivative, a differential"),
+    "Liealgebra": (r"\\mathfrak\{g\}", 0, {"": r"\mathfrak{g}"}, "the Lie algebra"),
+    "algebraof": (r"\\mathfrak(?=\{)", 1, {"": r"\mathfrak{#1}"}, "a classical Lie algebra"),
+    "Cartanform": (r"\\varpi(?![A-Za-z])", 0, {"": r"\varpi"}, "the Cartan form"),
+    "variation": (r"\\delta(?![A-Za-z])", 0, {"": r"\delta"}, "a variation"),
+    "pulled": (r"\\tilde(?![A-Za-z])", 1, {"": r"\tilde{#1}"}, "pulled back to the group"),
+    "rate": (r"\\dot(?![A-Za-z])", 1, {"": r"\dot{#1}"}, "the derivative along the motion"),
 }
-"""Macro → how many arguments, its definition for each notation, what it is for."""
+"""Macro → the command that it replaces, if one pattern has it, how many arguments, its definition
+for each notation, what it is for."""
 
 
 def styled(tex: str) -> str:
     """Formulas, or a text with formulas between dollars, with macros in place of commands."""
     tex = re.sub(r"\$[^$]*\$", lambda m: SKEW.sub(r"\\hatmap{\1}", m[0]), tex)
     tex = BAR.sub(r"\\transpose{\1\2}{\3}", tex)
-    for pattern, macro in RENAMED:
-        tex = re.sub(rf"{pattern}(?=([A-Za-z])?)", partial(_renamed, macro), tex)
+    for macro, (pattern, *_) in DEFINED.items():
+        if pattern:
+            tex = re.sub(rf"{pattern}(?=([A-Za-z])?)", partial(_renamed, rf"\{macro}"), tex)
     return tex
 
 
@@ -294,7 +285,7 @@ def definitions(notation: Notation) -> list[str]:
     chosen = {"transpose": notation.transpose, "transposeof": notation.transpose}
     chosen["hatmap"] = notation.hat
     lines = []
-    for name, (count, bodies, meaning) in DEFINED.items():
+    for name, (_, count, bodies, meaning) in DEFINED.items():
         body, arguments = bodies[chosen.get(name, "")], f"[{count}]" if count else ""
         lines.append(rf"\providecommand{{\{name}}}{arguments}{{{body}}} % {meaning}")
     return lines
