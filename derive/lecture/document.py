@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import reduce
+from functools import partial, reduce
 from typing import Any
 
 from ..language.read import FormulaError
@@ -82,7 +82,7 @@ def _inline(x: typeset.Formula) -> str:
 
 
 LATEX = Medium(
-    tex_text,
+    partial(tex_text, latin=True),
     r"\emph{{{}}}",
     r"\texttt{{{}}}",
     r"\ref{{{label}}}",

@@ -107,13 +107,14 @@ NO_BREAK = "\u00a0\u202f"
 WORD = re.compile(rf"[\S{NO_BREAK}]+")
 
 
-def tex_text(words: str) -> str:
-    """Any text as LaTeX that prints it; what the fonts lack becomes a question mark."""
+def tex_text(words: str, *, latin: bool = False) -> str:
+    """Any text as LaTeX that prints it; what the fonts lack becomes a question mark.  In ASCII, for
+    any preamble, or with letters of Latin-1 as they are (``latin``)."""
     shown: list[str] = []
     plain = re.sub(r"([-'`])(?=\1)", "\\1\u200b", " ".join(WORD.findall(words)))
     for c in decomposed(plain):
         if unicodedata.combining(c):
-            shown[-1:] = [_with_mark("".join(shown[-1:]), c)]
+            shown[-1:] = [_with_mark("".join(shown[-1:]), c, latin=latin)]
         elif c in TEXT:
             shown.append(TEXT[c])
         elif c == "\u200b":
@@ -129,10 +130,10 @@ def tex_text(words: str) -> str:
     return "".join(shown)
 
 
-def _with_mark(base: str, mark: str) -> str:
+def _with_mark(base: str, mark: str, *, latin: bool) -> str:
     """The LaTeX of a letter with a mark over or under it; ``?`` for those that no font has."""
     composed = unicodedata.normalize("NFC", base + mark)
-    if "À" <= composed <= "ÿ":
+    if latin and "À" <= composed <= "ÿ":
         return composed
     if mark in TEXT_ACCENTS and re.fullmatch("[A-Za-z]", base):
         dotless = rf"\{base}" if base in "ij" else base
