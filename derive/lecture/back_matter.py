@@ -140,6 +140,9 @@ def letters(
 def _names(entry: Entry) -> Iterator[tuple[str, Formula]]:
     """The names in the formulas of an entry that are expressions, and whole sides of formulas."""
     for x in entry.formulas:
+        if x.recorded:  # as text a parameter may look as a letter
+            yield from ((y, x) for e in x.recorded for t in (e.lhs, e.rhs) for y in names(t))
+            continue
         for side in (y for part in re.split(r",\s\s+", x.text) for y in RELATION.split(part)):
             yield side, x
             with suppress(FormulaError):
