@@ -52,7 +52,8 @@ def command_lecture(args: argparse.Namespace) -> int:
     records = records_of(chapters)
     body: OwnBody | None = None
     for name in args.problem:
-        own, found, its = chapter_on(name, args.search_seconds, taken=body is not None)
+        taken = body is not None
+        own, found, its = chapter_on(name, args.search_seconds, taken=taken, lang=args.lang)
         if records.get(own.name, found[own.name]) != found[own.name]:
             raise UsageError(f"{name}: the lecture has another {own.name!r}: give it another name")
         chapters.append(own)
@@ -100,9 +101,12 @@ class OnProblem(NamedTuple):
     body: OwnBody | None
 
 
-def chapter_on(name: str, seconds: float | None = None, *, taken: bool = False) -> OnProblem:
+def chapter_on(
+    name: str, seconds: float | None = None, *, taken: bool = False, lang: str = "en"
+) -> OnProblem:
     """The chapter on a problem of the user's, each search for at most so many ``seconds`` of
-    processor time; ``taken``: has another body the place of the racket?"""
+    processor time; ``taken``: has another body the place of the racket? ``lang``: of what is said
+    meanwhile."""
     problem, record = derive(name)
     found, records = {}, {record.name: record}
     asked = {k: x for k, x in SEARCHES.items() if k != "trim" or problem.inputs}
@@ -121,7 +125,7 @@ def chapter_on(name: str, seconds: float | None = None, *, taken: bool = False) 
     ran, speed = motion(problem, record)
     body, place = place_of(record, speed or 1.0, taken=taken)
     if body is None:
-        print(f"{record.name}: {place}", file=sys.stderr)
+        print(f"{record.name}: {language(lang).of((place,))}", file=sys.stderr)
     # the momenta Π_a of a body are told by the searches alone
     made_of = [
         s for made in records.values() for s in made.steps if s.label == f"{record.name}.momenta"
@@ -129,7 +133,7 @@ def chapter_on(name: str, seconds: float | None = None, *, taken: bool = False) 
     momenta = [s for s in made_of if ("at", "Π", 1) in (e.lhs for e in s.equations)][:1]
     told_of = replace(record, steps=(*dict.fromkeys((*momenta, *record.steps)),))
     chapter = chapter_of(told_of, found, tuple(records), place if body else None, ran)
-    return OnProblem(chapter, records, body)
+    return OnProblem(replace(chapter, file=name), records, body)
 
 
 def motion(problem: Problem, record: Derivation) -> tuple[Ran | Sentence, float]:

@@ -6,10 +6,13 @@ from __future__ import annotations
 import re
 import unicodedata
 from collections.abc import Iterator, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
+from shlex import quote
 
 from ..language.read import FormulaError
-from ..language.tree import names
+from ..language.show import show
+from ..language.tree import names, nodes
 from ..record.record import Derivation
 from ..views.language import Language, labelled, told
 from ..views.outline import ON_FLUIDS, ON_STEPS_OF_TIME, REFERENCES
@@ -76,16 +79,22 @@ the same name."""
 
 
 def homes(chapters: Sequence[Chapter], records: Mapping[str, Derivation]) -> dict[str, list[str]]:
-    """How the labels in the margins begin → the commands that print these steps; not of chapters on
-    a reader's own problems, whose files have names of their own."""
-    found: dict[str, list[str]] = {}
+    """How the labels in the margins begin → the commands that print these steps."""
+    found: dict[str, dict[str, str]] = {}
     steps = {name: {s.label for s in d.steps} for name, d in records.items()}
-    for chapter in (c for c in chapters if c.of_course):
+    for chapter in chapters:
         for label in (x for e in chapter.entries for x in e.labels):
-            places = found.setdefault(label.partition(".")[0], [])
+            places = found.setdefault(label.partition(".")[0], {})
             if not any(label in steps[name] for name in places):
-                places.append(next(name for name in chapter.problems if label in steps[name]))
-    return {x: [*map(_printing, places)] for x, places in sorted(found.items())}
+                name = next(name for name in chapter.problems if label in steps[name])
+                # of a problem of the reader's as that was called
+                own = (
+                    name
+                    if chapter.of_course
+                    else name.replace(chapter.name, quote(chapter.file), 1)
+                )
+                places[name] = _printing(own)
+    return {x: [*places.values()] for x, places in sorted(found.items())}
 
 
 def _printing(name: str) -> str:
@@ -108,7 +117,8 @@ def letters(
     chapters: Sequence[Chapter], records: Mapping[str, Derivation], language: Language
 ) -> list[LetterUse]:
     """The letters of the text that the records of its chapters declare, or ``OWN``, in alphabetical
-    order; not those of variations and rates, which are read off from their marks."""
+    order; not those of variations and rates, which are read off from their marks.  What a record
+    declares a letter means where a formula is tried: in one that is supposed it may be another."""
     found: dict[tuple[str, str], LetterUse] = {}
     for k, chapter in enumerate(chapters, 1):
         declared = {
@@ -116,25 +126,29 @@ def letters(
             for problem in reversed(chapter.problems)
             for s in records[problem].symbols
         }
-        own = (x for x in OWN if chapter.of_course and x[0] == chapter.name)
-        declared |= {x[1]: language.marked.word(OWN[x]) for x in own}
+        told_of = (x for x in OWN if chapter.of_course and x[0] == chapter.name)
+        own = {x[1]: language.marked.word(OWN[x]) for x in told_of}
         for entry in chapter.entries:
-            for name in _names(entry):
-                if name in declared and not _marked(name):
-                    use = LetterUse(name, declared[name], entry, k)
+            for name, formula in _names(entry):
+                meaning = own.get(name, "" if formula.condition else declared.get(name, ""))
+                if meaning and not _marked(name):
+                    use = LetterUse(name, meaning, entry, k)
                     found.setdefault((name, use.meaning), use)
     return sorted(found.values(), key=lambda x: (*_place(x.name), x.chapter))
 
 
-def _names(entry: Entry) -> Iterator[str]:
+def _names(entry: Entry) -> Iterator[tuple[str, Formula]]:
     """The names in the formulas of an entry that are expressions, and whole sides of formulas."""
-    texts = (x.text for x in entry.texts[0] if isinstance(x, Formula))
-    for side in (y for x in texts for part in re.split(r",\s\s+", x) for y in RELATION.split(part)):
-        yield side
-        try:
-            yield from names(tree(side))
-        except FormulaError:
+    for x in entry.formulas:
+        if x.recorded:  # as text a parameter may look as a letter
+            yield from ((y, x) for e in x.recorded for t in (e.lhs, e.rhs) for y in names(t))
             continue
+        for side in (y for part in re.split(r",\s\s+", x.text) for y in RELATION.split(part)):
+            yield side, x
+            with suppress(FormulaError):
+                t = tree(side)
+                numbered = (show(y) for y in nodes(t) if isinstance(y, tuple) and y[0] == "entry")
+                yield from ((name, x) for name in (*names(t), *numbered))
 
 
 def _marked(name: str) -> bool:

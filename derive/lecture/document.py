@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import reduce
+from functools import partial, reduce
 from typing import Any
 
 from ..language.read import FormulaError
@@ -42,6 +42,8 @@ COMMAND = "derive "
 """How what is typed begins."""
 LISTED = re.compile(r"(?<=\d\u202f;) (?=\d)")
 """The space between two numbers of a list in French."""
+MEASURED = re.compile(r"(\d[.,]\d+) (?=[^\W\d])")
+"""A decimal before a word, as its unit."""
 TIED = re.compile(r"(?<=\w|\.) $")
 """The space between a word and a number, where no line breaks."""
 CAPITAL = re.compile("<mi>([Α-Ω])</mi>")
@@ -80,7 +82,7 @@ def _inline(x: typeset.Formula) -> str:
 
 
 LATEX = Medium(
-    tex_text,
+    partial(tex_text, latin=True),
     r"\emph{{{}}}",
     r"\texttt{{{}}}",
     r"\ref{{{label}}}",
@@ -149,6 +151,7 @@ def _whole(x: Lecture, medium: Medium) -> dict[str, object]:
         chapters = [replace(c, blocks=x) for c, x in zip(chapters, asked, strict=True)]
     listed = letters(chapters, x.records, language)
     table = [setter.letter(letter, k) for k, letter in enumerate(listed)]
+    printed = homes(chapters, x.records)
     works = [(*by, ", ".join(map(language.word, where.split(", ")))) for *by, where in WORKS]
     return {
         "language": language.name,
@@ -159,7 +162,7 @@ def _whole(x: Lecture, medium: Medium) -> dict[str, object]:
         "solutions": x.solutions,
         "chapters": [setter.chapter(c, numbers) for c in chapters],
         "letters": table,
-        "homes": homes(chapters, x.records),
+        "homes": {medium.text(y): [*map(medium.text, told)] for y, told in printed.items()},
         "works": [(key.lower(), *map(medium.text, told)) for key, *told in works],
     }
 
@@ -303,6 +306,7 @@ class _Setter:
 
     def spaced(self, words: str) -> str:
         """Words in the medium, with the spaces before and after."""
+        words = MEASURED.sub(rf"\1{NO_BREAK[0]}", words)
         if self.language.name == "fr":
             words = LISTED.sub(NO_BREAK[0], typeset_french(words))
         inside = words.strip(" ")

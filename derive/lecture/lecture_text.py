@@ -192,7 +192,7 @@ class Chapter:
     @property
     def of_course(self) -> bool:
         """Is it one of the course, not of a reader's problem, whose name may be the same?"""
-        return self.file.endswith(".txt")
+        return self.file in {x.name for x in FOLDER.glob("*.txt")}
 
     @property
     def entries(self) -> Iterator[Entry]:

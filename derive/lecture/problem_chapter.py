@@ -109,7 +109,7 @@ def chapter_of(
     run = ran if isinstance(ran, Ran) else None
     moving = coordinate(d, found.get("reduction", Found()).steps)
     others = [*off_the_axes(d, found.get("reduction", Found()).steps, run)]
-    told = {x: _told(d, x, found[x], run, also=bool(others)) for x in SEARCHES if x in found}
+    told = {x: _told(d, x, found, run, also=bool(others)) for x in SEARCHES if x in found}
     if {*STEADY} <= {*told}:  # in letters, where they are found so: it says more
         del told[STEADY[0] if told[STEADY[1]] else STEADY[1]]
     for search in {*STEADY} & {*told}:
@@ -150,8 +150,7 @@ def chapter_of(
         figures[label_of(d.name)] = partial(ran.picture, also=_beside(ran, moving))
     if drawn := scene(d):
         figures[label_of(d.name, "body")] = lambda _: drawn
-    file = f"the chapter of {d.name}"
-    return Chapter(d.name, titles, records, tuple(blocks), file, figures)
+    return Chapter(d.name, titles, records, tuple(blocks), d.name, figures)
 
 
 def _section(*headings: str) -> Block:
@@ -161,11 +160,11 @@ def _section(*headings: str) -> Block:
 def _question(ran: Ran | None, letter: Tree, *, stable: bool) -> Block:
     """What moves, from which start, if that is not long, and what is asked of it."""
     asked = [lecture("question")]
-    asked += [lecture("between_which", letter=show(letter))] if letter else []
     asked += [lecture("question_stable")] if stable else []
     if ran and len(ran.start) <= MOST:
         start = ", ".join(f"{x} = {written(y)}" for x, y in ran.start)
-        asked.insert(0, lecture("start" if start else "at_rest", start=start))
+        asked.append(lecture("start" if start else "at_rest", start=start))
+    asked += [lecture("between_which", letter=show(letter))] if letter else []
     asked += [UNDRIVEN] if ran and ran.undriven else []
     return _text(sentence((*asked,)))
 
@@ -231,7 +230,9 @@ def _as_kirchhoff(d: Derivation) -> bool:
 
 def in_order(defined: Sequence[Equation]) -> list[Equation]:
     """Definitions, each behind those of the letters that it is made of, as far as they can be."""
-    left, found = [*defined], list[Equation]()
+    families = [_family(e.lhs) for e in defined]
+    left = sorted(defined, key=lambda e: (families.index(_family(e.lhs)), str(e.lhs)))
+    found = list[Equation]()
     while left:
         open_ = {y for e in left for y in (e.lhs, _family(e.lhs))}
         free = [e for e in left if not open_ - {e.lhs, _family(e.lhs)} & {*nodes(e.rhs)}]
@@ -268,11 +269,15 @@ def _valued(rows: Sequence[tuple[str, str, str, str]], spoken: Language) -> Word
     return tuple(found[:-1])
 
 
-def _told(d: Derivation, search: str, found: Found, ran: Ran | None, *, also: bool) -> list[Entry]:
+def _told(
+    d: Derivation, search: str, every: Mapping[str, Found], ran: Ran | None, *, also: bool
+) -> list[Entry]:
     """The steps that a search tells; nothing where it was refused, or found none; ``also``: are
     there steady motions that the reduction tells?"""
+    found = every[search]
     if search in STEADY:
-        told_of = [*steady(d, found.steps, ran, elsewhere=also)]
+        known = every.get(STEADY[0], Found()).steps
+        told_of = [*steady(d, found.steps, ran, elsewhere=also, in_numbers=known)]
         return [*told_of, *(asleep(d) if told_of else ())]
     begins = tuple(f"{d.name}.{x}" for x in TOLD[search])
     told = [s for s in found.steps if s.label.startswith(begins)]

@@ -133,7 +133,7 @@ class Ran:
         if len(at) < MAXIMA:
             return words.word(told("lecture:goes"), letter=letter, **ends)
         apart = self._with_unit((at[-1] - at[0]) / (len(at) - 1), "t", 3)
-        places = {"letter": letter, **ends, "count": str(len(at)), "apart": apart}
+        places = {"letter": letter, **ends, "apart": apart}
         return words.word(told("lecture:swings"), **places)
 
     def _with_unit(self, x: float, name: str, digits: int = 4) -> str:

@@ -21,6 +21,7 @@ from ..check.checker import checker_of
 from ..language.laurent import OverlongError, vanishes
 from ..language.show import in_sentence, show
 from ..language.tree import Tree, add, neg, nodes, replaced
+from ..language.values import elementary, value
 from ..record.as_json import decode
 from ..record.prose import message
 from ..record.record import Derivation, Equation, Step
@@ -102,6 +103,12 @@ def _constant(equations: Sequence[Equation], number: int) -> str:
 
 
 ALWAYS, WHERE, SOLIDS = "always", " where {cases}", ("SO(3)", "SE(3)")
+HEIGHTS = (message("position.lowest"), message("position.highest"))
+FLAT = 1e-6
+"""What is less, beside the greatest eigenvalue, is a real part that is 0: that of a double root is
+known to the square root of the rounding."""
+FACTORS = [1.1**k for k in range(-48, 49)]
+"""By what a momentum is multiplied in search of that from which no eigenvalue grows."""
 LONG = 90
 """The most letters of conditions that are told in letters."""
 TOP = ("I_1", "I_3", "mgl")
@@ -111,7 +118,7 @@ LETTERS = "Any values but 0: {letters}."
 AT = "At {point} the motion is {verdict}."
 WHEN = "{when} ({point}), the motion is {verdict}."
 STABLE, UNSTABLE = "stable", "unstable"
-OPEN = "stable or not, which these steps do not decide"
+OPEN = "perhaps stable, which these steps do not decide"
 LONG_ONES, HERE_ONLY = "stable or not by the inequalities of these steps", "here {verdict}"
 ON_LEAF = "stable for motions with the same Casimirs"
 VERDICTS = {
@@ -150,18 +157,26 @@ RANKS = "the least of the three", "between those of the others", "the greatest o
 
 
 def steady(
-    d: Derivation, steps: Sequence[Step], ran: Ran | None = None, *, elsewhere: bool = False
+    d: Derivation,
+    steps: Sequence[Step],
+    ran: Ran | None = None,
+    *,
+    elsewhere: bool = False,
+    in_numbers: Sequence[Step] = (),
 ) -> Iterator[Entry]:
     """What is supposed, then a sentence for each steady motion, and one of three that are alike;
     ``steps``: of one search; ``ran``: the motion whose momenta the numbers are of; ``elsewhere``:
-    are others told, too?"""
+    are others told, too? ``in_numbers``: steps that know which positions are the lowest."""
     at = [s for s in steps if ".equilibrium_" in s.label]
     if not at:
         return
     both = [
         [x for x in steps if x.label.rpartition("_")[2] == s.label.rpartition("_")[2]] for s in at
     ]
-    points = [[y[1:] for s in run for x in placed(s, "point") for y in rows(x)] for run in both]
+    points = [*map(_point, both)]
+    heights = {
+        _position(_point([s])): x for s in in_numbers for x in s.prose if x.message in HEIGHTS
+    }
     said = [x for s in steps for x in s.prose]
     supposed = [x for x in said if x.message == message("family.positive")][:1]
     letters = [y for point in points for y in point if isinstance(y[1], tuple)]
@@ -182,7 +197,11 @@ def steady(
     told: dict[Prose, tuple[Prose, list[str]]] = {}
     for run, point, verdict in zip(both, points, verdicts, strict=True):
         motion = _kind(d, point)
-        one, pair = (_of_one(run, motion, verdict, also=x) for x in (False, len(motion[2]) == 1))
+        besides = [retold(heights[x]) for x in (_position(point),) if x in heights]
+        besides += _to_first_order(run, point, verdict[0], numbers)
+        one, pair = (
+            (*_of_one(run, motion, verdict, also=x), *besides) for x in (False, len(motion[2]) == 1)
+        )
         told.setdefault(pair, (one, []))[1].extend(x.label for x in run)
         proved = STABLE if verdict[0] == ON_LEAF else verdict[0]
         alike.setdefault(motion[0] if len(point) == 1 else "", []).append(proved)
@@ -190,6 +209,48 @@ def steady(
         yield sentence(pair if sum(".equilibrium_" in x for x in labels) > 1 else one, labels)
     for kind in ALIKE:
         yield from _odd_one(d, kind, alike.get(kind, []))
+
+
+def _point(steps: Sequence[Step]) -> list[Any]:
+    """The coordinates that are not 0 at the steady motion of these steps, with their values."""
+    return [y[1:] for s in steps for x in placed(s, "point") for y in rows(x)]
+
+
+def _position(point: Point) -> tuple[Any, ...]:
+    """Those of the position."""
+    return tuple((x, y) for x, y in point if x[0] == "entry")
+
+
+def _to_first_order(
+    steps: Sequence[Step], point: Point, proved: str, numbers: Mapping[str, float]
+) -> Iterator[Sentence]:
+    """Where the record has no short inequality, or none decides: the eigenvalues with the numbers,
+    by its characteristic polynomial, and the momentum from which none has a positive real part."""
+    polynomial = next((t for s in steps for t in placed(s, "polynomial")), 0)
+    letters = [y[1] for _, y in point if isinstance(y, tuple)]
+    brief = any(0 < len(_cases(x)) <= LONG for s in steps for x in s.prose)
+    if not polynomial or not numbers or {*letters} - {*numbers} or (brief and proved != OPEN):
+        return
+
+    def roots(factor: float = 1) -> Any:
+        scaled = {**numbers, **{x: factor * numbers[x] for x in letters}}
+        about = value(polynomial, {"λ": np.poly1d([1.0, 0.0])}, scaled, elementary).roots
+        return about.real * (abs(about.real) > FLAT * abs(about).max()) + 1j * about.imag
+
+    told = {(written(abs(x.real), 3), written(abs(x.imag), 3)) for x in roots()}
+    pairs = ([f"± {x}{i}" for x, i in zip(y, ("", "i"), strict=True) if x != "0"] for y in told)
+    yield lecture("eigenvalues", eigenvalues=", ".join(sorted(" ".join(x) or "0" for x in pairs)))
+    if proved in (OPEN, "") and not roots().real.any():
+        yield lecture("first_order")
+    grown = [x for x in FACTORS if letters and roots(x).real.any()]
+    if grown and grown[-1] < FACTORS[-1]:
+        low, high = grown[-1], grown[-1] * FACTORS[1] / FACTORS[0]
+        while high - low > FLAT * high:
+            middle = (low + high) / 2
+            low, high = (middle, high) if roots(middle).real.any() else (low, middle)
+        (letter,), places = letters, {"value": high * numbers[letters[0]], "factor": high}
+        told_so = {x: written(y, 3) for x, y in places.items()}
+        yield lecture("threshold", letter=in_sentence(("par", letter)), **told_so)
 
 
 def _numbers(d: Derivation, letters: Point, ran: Ran | None) -> tuple[dict[str, float], str]:
@@ -288,7 +349,7 @@ def _verdict(steps: Sequence[Step], numbers: Mapping[str, float]) -> tuple[str, 
             continue
         pairs = [pair for case in cases for pair in case]
         (a, b) = pairs[0]
-        if len(pairs) == 1 and b == 0 and rows(a)[1:] and positive(a, numbers):
+        if len(pairs) == 1 and b == 0 and a[0] == "add" and positive(a, numbers):
             return verdict, ALWAYS
         values = [[[value_of(t, numbers) for t in pair] for pair in x] for x in cases]
         if math.isnan(sum(y for case in values for x in case for y in x)):

@@ -32,7 +32,7 @@ FUNCTION |= {
 }
 """Names that are nothing but functions, or families of them: brackets after them hold arguments."""
 RATES = {"h̃̇": "ḣ"}
-MARKS = {"~": "\u0303", "˙": "\u0307", "^": "\u0302"}
+MARKS = {"~": "\u0303", "˙": "\u0307", "¨": "\u0308", "^": "\u0302"}
 SMALL = """alpha beta gamma delta epsilon zeta eta theta iota kappa mu nu xi pi rho sigma tau
     upsilon chi psi omega"""
 LARGE = "Gamma Delta Theta Xi Pi Sigma Upsilon Phi Psi Omega"
@@ -48,7 +48,7 @@ class UnreadableError(ValueError):
 
 
 def accented(letter, mark):
-    """A letter with ~ or ˙ over it, as the record spells it."""
+    """A letter with ~, ˙ or ¨ over it, as the record spells it."""
     text = unicodedata.normalize("NFD", letter) + MARKS.get(mark, mark)
     return RATES.get(text, unicodedata.normalize("NFC", text))
 

@@ -3,7 +3,7 @@
 import re
 from fractions import Fraction
 
-from tests.readers.formula import GREEK, UnreadableError, accented, equation, parsed
+from tests.readers.formula import GREEK, MARKS, UnreadableError, accented, equation, parsed
 
 TOKEN = re.compile(
     r"\\begin\{[a-z]+\}(?:\{@\{\}l@\{\}\})?|\\end\{[a-z]+\}|\\[A-Za-z]+|\\.|\d|'+|\S"
@@ -30,6 +30,7 @@ OPERATORS |= {
 OPERATORS |= {c: c for c in "+-=/,;<>:.|*"}
 BRACKETS = {r"\langle": "⟨", r"\rangle": "⟩"} | {c: c for c in "()[]"}
 ACCENTS = {r"\tilde": "~", r"\pulled": "~", r"\dot": "˙", r"\rate": "˙", r"\hat": "^"}
+ACCENTS[r"\ddot"] = "¨"
 SPACES = (r"\,", r"\quad", r"\qquad", r"\ ", r"\;")
 
 
@@ -204,6 +205,25 @@ def tokens(tex, known):
 def formula(tex, known):
     """One formula."""
     return parsed(tokens(tex, known), known)
+
+
+LAYOUT = re.compile(r"\\(?:begin|end)\{\w+\}|\[2pt\]|\\(?:mathsf|mathrm|mathbf|operatorname)")
+OVER = {command: MARKS[mark] for command, mark in ACCENTS.items()}
+
+
+def letters_in(tex):
+    """The letters and digits of formulas, each with the marks over it, but bars."""
+    found, over, style = "", "", {}
+    for token in TOKEN.findall(LAYOUT.sub("", tex)):
+        if token in (r"\text", r"\ensuremath"):
+            raise UnreadableError(f"words in a formula: {tex}")
+        over += OVER.get(token, "")
+        style = STYLES.get(token, style)
+        letters = "j" if token == r"\hatmap" else LETTERS.get(token) or WORDS.get(token, token)
+        if letters.isalnum():
+            found += style.get(letters, letters) + over
+            over, style = "", {}
+    return found.replace("h\u0307\u0303", "h\u0307")  # the rate of h̃, as records spell it
 
 
 CLAUSE = re.compile(r"(?:\\quad|\\ )?\s*\\text\{[^}]*\}.*|\\in\b.*")

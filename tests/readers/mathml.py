@@ -7,7 +7,7 @@ from xml.etree import ElementTree
 from tests.readers.formula import UnreadableError, accented, equation, parsed
 
 OPERATORS = {"−": "-", "∧": "∧", "·": "·", "⊤": "⊤"} | {c: c for c in "+=/,;<>:.≠≤≥≅≈±∈→↦×∘√*"}
-ACCENTS = "˙~^"
+ACCENTS = "˙¨~^"
 BRACKETS = "([⟨)]⟩"
 WORDS = {"∑": "Σ", "∫": "∫"}
 ARTICLE = re.compile(r'<article id="(.*?)">(.*?)</article>', re.S)

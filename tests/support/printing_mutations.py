@@ -157,6 +157,7 @@ MUTATIONS = {
         INLINE, 'raised(_open(found, "^"), spelt(exponent, notation, names))', "found"),
     "sentences: a root of nothing": (
         INLINE, "root(spelt(inside or called, notation, names))", 'Formula("")'),
+    "sentences: one dot for two": (SIGNS, r'"\u0308": r"\ddot"', r'"\u0308": r"\dot"'),
     "sentences: an accent for another": (SIGNS, r'"\u0303": r"\tilde"', r'"\u0303": r"\hat"'),
 }  # fmt: skip
 """What is changed → the module, its source, and what stands there instead."""
@@ -165,7 +166,7 @@ MUTATIONS = {
 HARD = say(
     "Where {cases} and {other}, there is {that}.",
     cases="A₁₂² ≠ 0, δ′h̃ ≤ ½ + √(21), ‘x1’ ‘sn’ > −‘x₁’",
-    other="∇_η′ u ≈ 4.58, P′ = 0",
+    other="∇_η′ u ≈ 4.58, P′ = 0, ψ̈ = S̈",
     that="g⁻¹δ′g",
 )
 """A sentence that has what is rare in sentences."""

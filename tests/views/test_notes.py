@@ -5,6 +5,7 @@ import re
 import subprocess
 from dataclasses import replace
 from html.parser import HTMLParser
+from unicodedata import normalize
 
 import pytest
 
@@ -18,6 +19,7 @@ from derive.views.printing.sentences import spelt
 from derive.views.printing.signs import Notation
 from derive.views.printing.tex import formula
 from tests.problems import READY
+from tests.support import lectures
 from tests.support.needs import need, needs
 from tests.support.playground_site import chromium
 from tests.support.processes import typeset
@@ -206,6 +208,35 @@ def test_in_a_browser(width, lang, browser, tmp_path):
     assert len(found["figures"]) == len(NAMES)
     assert min(found["figures"]) > 50
     page.close()
+
+
+FOLDED = """what => Array.from(document.querySelectorAll(what), (fold) => {
+    const words = document.createTreeWalker(fold, NodeFilter.SHOW_TEXT), found = [""];
+    for (let node; node = words.nextNode();) {
+        if (!node.parentElement.closest("summary, math")) found.push(node.data);
+    }
+    return found.reduce((a, b) => a.length < b.length ? b : a);
+})"""
+"""The longest run of words in each of what is folded."""
+
+
+@needs("pdftoppm")
+@pytest.mark.parametrize("kind", ["lecture", "notes"])
+def test_what_is_folded_is_on_paper(kind, browser, tmp_path):
+    """Proofs, calculations and solutions of a lecture, the meanings of the letters of notes."""
+    file, printed = tmp_path / "page.html", tmp_path / "page.pdf"
+    shown = lectures.shown("page", "fr") if kind == "lecture" else html([record("so3")])
+    file.write_text(shown, encoding="utf-8")
+    page = browser.new_page()
+    page.goto(file.as_uri())
+    folded = page.evaluate(FOLDED, "details" if kind == "lecture" else "details.names")
+    page.pdf(path=printed)
+    page.close()
+    text = subprocess.run(["pdftotext", "-raw", printed, "-"], stdout=-1, text=True).stdout
+    paper = "".join(normalize("NFKC", text).split())
+    assert len(folded) > (80 if kind == "lecture" else 0)
+    lines = [x for x in folded if "".join(normalize("NFKC", x).split()) not in paper]
+    assert lines == []
 
 
 def test_anchors_are_there_and_single():

@@ -39,7 +39,10 @@ LETTERS = GREEK | {
 """Command of LaTeX (without its backslash) → letter, for commands that are letters."""
 OVERDOT = "\u0307"
 """What stands over the letter of a rate."""
-MATH_ACCENTS = {"\u0304": r"\bar", "\u0303": r"\tilde", OVERDOT: r"\dot", "\u0302": r"\hat"}
+MATH_ACCENTS = {
+    "\u0304": r"\bar", "\u0303": r"\tilde", "\u0302": r"\hat",
+    OVERDOT: r"\dot", "\u0308": r"\ddot",
+}  # fmt: skip
 SYMBOLS = {letter: rf"\{name}" for name, letter in LETTERS.items()} | {
     "Σ": r"\sum", "−": "-", "∧": r"\wedge", "⟨": r"\langle", "⟩": r"\rangle",
     "‖": r"\Vert", "≅": r"\cong", "≠": r"\neq", "≤": r"\le", "≥": r"\ge", "∈": r"\in", "→": r"\to",
@@ -101,26 +104,27 @@ TEXT = {
     "€": r"\texteuro{}", "†": r"\textdagger{}", "‰": r"\textperthousand{}",
 }  # fmt: skip
 """Characters outside formulas → LaTeX; a fraction of mathematics in a title would end TeX."""
+MATH = r"\ensuremath"
 NO_BREAK = "\u00a0\u202f"
 WORD = re.compile(rf"[\S{NO_BREAK}]+")
 
 
-def tex_text(words: str) -> str:
-    """Any text as LaTeX that prints it; what the fonts lack becomes a question mark."""
+def tex_text(words: str, *, latin: bool = False) -> str:
+    """Any text as LaTeX that prints it; what the fonts lack becomes a question mark.  In ASCII, for
+    any preamble, or with letters of Latin-1 as they are (``latin``)."""
     shown: list[str] = []
     plain = re.sub(r"([-'`])(?=\1)", "\\1\u200b", " ".join(WORD.findall(words)))
     for c in decomposed(plain):
-        if c in TEXT:
+        if unicodedata.combining(c):
+            shown[-1:] = [_with_mark("".join(shown[-1:]), c, latin=latin)]
+        elif c in TEXT:
             shown.append(TEXT[c])
         elif c == "\u200b":
             shown.append("{}")
-        elif c in TEXT_ACCENTS and shown and re.fullmatch("[A-Za-z]", shown[-1]):
-            base = rf"\{shown[-1]}" if shown[-1] in "ij" else shown[-1]
-            shown[-1] = rf"\{TEXT_ACCENTS[c]}{{{base}}}"
         elif c in TEX_SPECIAL:
             shown.append(TEX_SPECIAL[c])
         elif c in SYMBOLS or c in RAISED or c in LOWERED:
-            shown.append(rf"\ensuremath{{{math_char(c)}}}")
+            shown.append(f"{MATH}{{{math_char(c)}}}")
         elif " " <= c <= "~":
             shown.append(c)
         elif not unicodedata.category(c).startswith(("M", "C")):
@@ -128,9 +132,23 @@ def tex_text(words: str) -> str:
     return "".join(shown)
 
 
+def _with_mark(base: str, mark: str, *, latin: bool) -> str:
+    """The LaTeX of a letter with a mark over or under it; ``?`` for those that no font has."""
+    composed = unicodedata.normalize("NFC", base + mark)
+    if latin and "À" <= composed <= "ÿ":
+        return composed
+    if mark in TEXT_ACCENTS and re.fullmatch("[A-Za-z]", base):
+        dotless = rf"\{base}" if base in "ij" else base
+        return rf"\{TEXT_ACCENTS[mark]}{{{dotless}}}"
+    if mark in MATH_ACCENTS and base.startswith(MATH):
+        return f"{MATH}{{{MATH_ACCENTS[mark]}{base.removeprefix(MATH)}}}"
+    return "?"
+
+
 def unknown_to_tex(words: str) -> str:
-    """The distinct characters of a text that :func:`tex_text` shows as question marks."""
-    return "".join(dict.fromkeys(c for c in words if c != "?" and "?" in tex_text(c)))
+    """The distinct letters of a text, with their marks, that :func:`tex_text` has as ``?``."""
+    letters = re.findall(r".[\u0300-\u036f]*", words)
+    return "".join(dict.fromkeys(x for x in letters if x != "?" and "?" in tex_text(x)))
 
 
 def markdown_text(words: str) -> str:

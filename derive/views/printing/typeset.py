@@ -20,7 +20,7 @@ from .signs import LETTERS, SYMBOLS, Notation
 
 # The width of a LaTeX formula, estimated well enough to choose where its lines break.
 
-WIDTHLESS = "bar|overline|tilde|dot|hat|mathrm|mathsf|mathbf|operatorname|text|textsf|ensuremath"
+WIDTHLESS = "bar|overline|tilde|d?dot|hat|mathrm|mathsf|mathbf|operatorname|text|textsf|ensuremath"
 WIDTHS = (
     (r"\\(?:begin|end)\{[a-z]+\}(?:\{[^{}]*\{\}[^{}]*\{\}\})?", 0.6),
     (rf"\\(?:{WIDTHLESS})(?![A-Za-z])", 0),
@@ -159,7 +159,7 @@ FENCES = {SYMBOLS[c]: c for c in "⟨⟩‖"} | {r"\lVert": "‖", r"\rVert": "�
 FENCES |= {r"\lvert": "|", r"\rvert": "|"}
 FENCES |= {c: c for c in "()[]"}
 SPACES = {r"\quad": "1em", r"\qquad": "2em", r"\,": "0.17em", "\\ ": "0.3em"}
-ACCENTS = {"dot": "˙", "tilde": "~", "hat": "^"}
+ACCENTS = {"dot": "˙", "tilde": "~", "hat": "^", "ddot": "¨"}
 LITERAL = re.compile(rf"\\[A-Za-z]+|\\.|[0-9]+|[{MARKS}]|\S")
 TOP = "<mo>⊤</mo>"
 OPENED: dict[object, str] = {f'<mo stretchy="false">{c}</mo>': c for c in "(["}
