@@ -362,7 +362,7 @@ def _apart(
     own = outputs[: len(outputs) - sum(len(x.entries) for x in vectors)]
     meanings = [x["meaning"] for x in legend(record, vectors, language)]
     told = {"arrows": drawn(record, vectors, len(own)), "meanings": meanings} if vectors else {}
-    return EmittedCode(replace(code.program, outputs=own), record, code.base), told
+    return EmittedCode(replace(code.program, outputs=own), record, code.problem), told
 
 
 def _turns(body: Data, record: Derivation) -> bool:
