@@ -9,16 +9,20 @@ import json
 import re
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import replace
+from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
 from ...code.emit import emit
 from ...code.options import Options
 from ...code.program import Program
+from ...language.expression import names
 from ...language.reserved import GREEK
 from ...language.templating import environment, folder
+from ...language.tree import Tree, replaced
 from ...motion.emitted_code import EmittedCode, in_words
 from ...motion.first_numbers import FirstNumbers, drives, is_free, weight
 from ...problem.problem import Problem
+from ...record.as_json import encode
 from ...record.record import Derivation
 from ..answer import PLANE
 from ..arrows import ORIGIN, TURNING, Arrow, arrows, drawn, legend, with_arrows
@@ -113,6 +117,7 @@ SCRIPTS = (
     "arrows",
     "stage",
     "chart",
+    "driven",
     "vorticity",
     "second",
     "polhode",
@@ -143,10 +148,16 @@ def motion_page(
     duration: float,
     tol: float,
     language: Language = ENGLISH,
+    held: Collection[str] = (),
 ) -> str:
     """The page of a motion from 0 to ``duration``, to a tolerance; the code is that of the record
-    :func:`.with_seen`."""
+    :func:`.with_seen`.  Inputs go by their signals, but those that are ``held``."""
     vectors = seen(record)
+    problem = replace(problem, signals=tuple(x for x in problem.signals if x.input not in held))
+    about = capitalised(subtitle(record, language))
+    if problem.signals:
+        told = language.word("inputs in time, until they are changed here: {names}")
+        about += "; " + told.format(names=", ".join(x.input for x in problem.signals))
     found = data(code, problem, record, begin, language, vectors)
     found |= {"t": duration, "tol": tol}
     written = json.dumps(
@@ -156,7 +167,7 @@ def motion_page(
     return template.render(
         language=language.name,
         title=visible(title(record, language)),
-        about=visible(capitalised(subtitle(record, language))),
+        about=visible(about),
         needs_script=language.word("The motion is computed by a script."),
         style=style(),
         data=written.replace("<", "\\u003c"),
@@ -199,14 +210,15 @@ def script(code: EmittedCode, record: Derivation, page: Data) -> str:
         (folder("html") / "motion" / f"{x}.js").read_text(encoding="utf-8") for x in SCRIPTS
     )
     chosen = pieces(page)
-    drawing = called(drawing, ["mount", *chosen.values()])
+    drawing = called(drawing, ["mount", *chosen.values(), *(["driven"] * ("signals" in page))])
+    moved = "driven(emitted, page)" if "signals" in page else "emitted"
     given = ", ".join(f"{name}: {x}" for name, x in chosen.items())
     return lean(
         f'"use strict";\nconst emitted = (() => {{\n{module}'
         f"return {{ {', '.join(names)} }};\n}})();\n"
         f'{drawing}\nconst page = JSON.parse(document.getElementById("page").textContent);\n'
         'const home = document.getElementById("motion");\n'
-        f"home.motion = mount(home, {{ module: emitted, ...page }}, {{ {given} }});\n"
+        f"home.motion = mount(home, {{ module: {moved}, ...page }}, {{ {given} }});\n"
     )
 
 
@@ -338,6 +350,7 @@ def data(
         **({"lost": True} if lost else {}),
         "curves": curves,
         **({"outputs": made.outputs} if made.outputs else {}),
+        **({"signals": _signals(problem, made, begin.parameters)} if problem.signals else {}),
         **told,
         "body": body,
         "labels": {
@@ -352,6 +365,26 @@ def data(
         "words": words,
         "comma": language.name == "fr",
     }
+
+
+def _signals(problem: Problem, made: Program, numbers: Mapping[str, float]) -> list[Data]:
+    """The inputs in time, by their places: trees, in which what is no parameter of the code has its
+    number."""
+    known = {x for x, *_ in made.parameters}
+    stand = {x: y for x, y in numbers.items() if x not in known}
+
+    def told(t: Tree) -> Data:
+        for name in {*names(t)} & {*stand}:
+            t = replaced(t, ("par", name), Fraction(stand[name]))
+        return encode(t)
+
+    return [
+        {"i": made.inputs.index(x.input)}
+        | ({"u": told(x.u)} if x.u is not None else {})
+        | {"held": x.hold}
+        | {k: [*map(told, ts)] for k, ts in (("times", x.times), ("values", x.samples)) if ts}
+        for x in problem.signals
+    ]
 
 
 def _apart(
