@@ -36,7 +36,7 @@ from .native import (
     loaded,
     over_cores,
 )
-from .run import Array
+from .run import Array, symmetry_axis
 from .start import central_inertia, inertia_of
 from .trajectory import MotionInPython, MotionUnderWay
 
@@ -155,13 +155,17 @@ class Emitted(EmittedCode):
 
     def body(self, p: Array) -> dict[str, Any]:
         """What pictures need of a body: its tensor of inertia, if it is turned in space, of its
-        points or of ℓ, about its centre where that is free, and its :func:`outline`."""
+        points or of ℓ, about its centre where that is free, and its :func:`outline`; where mass
+        flows, and the tensor with it, the ``axis`` of its symmetry at first, if there is one."""
         numbers = dict(zip(self.python.PARAMETERS, p.tolist(), strict=True))
-        stated = self.record.problem
-        found = outline(stated, numbers) if stated else {}
+        stated, solid = self.record.problem, self.problem.body
+        found: dict[str, Any] = outline(stated, numbers) if stated else {}
+        of_state = {x: self.problem.parameters[x].default for x in self.program.masses}
+        known = numbers | {x: y for x, y in of_state.items() if y is not None}
+        central = central_inertia(self.record, solid, known) if solid else None
+        if self.program.masses and central is not None:
+            found["axis"] = symmetry_axis(central)
         if "inertia" in self.program.functions:
-            solid = self.problem.body
-            central = central_inertia(self.record, solid, numbers) if solid else None
             about_origin = np.asarray(self.python.inertia(p), dtype=float)
             found["inertia"] = (about_origin if central is None else central).tolist()
         elif self.problem.lagrangian and self.program.group in ("SO(3)", "SE(3)"):
