@@ -425,3 +425,34 @@ def test_inputs_follow_their_signals_until_they_are_set(opened):
     held = opened(d.motion_page(4.0, start={"F_1": 5.0}))
     seek(held, 2.5)
     assert abs(held.evaluate(STATE)[3] - 12.5) < 1e-7
+
+
+READ = """
+name = "read"
+group = "SO(2)"
+point = [{ mass = 1, at = [0, -1] }]
+output = [
+  { name = "hwheel_momentum", unit = "kg m^2/s", y = ["zeta_1"] },
+  { name = "height", y = ["-A_11"] },
+]
+"""
+
+
+def test_readings_are_called_whole_and_with_their_units_and_the_picture_is_saved(opened):
+    shown = opened(derive.derive(problem_of(tomllib.loads(READ))).motion_page(4.0))
+    shown.evaluate("""() => {
+        const { prototype } = CanvasRenderingContext2D, own = prototype.fillText;
+        globalThis.written = {};
+        prototype.fillText = function (what, x, y) {
+            globalThis.written[what] = x + this.measureText(what).width - this.canvas.clientWidth;
+            own.call(this, what, x, y);
+        };
+    }""")
+    seek(shown, 2)
+    written = shown.evaluate("globalThis.written")
+    assert written["hwheel momentum, kg m²/s"] <= 0
+    assert written["height"] <= 0
+    with shown.expect_download() as saved:
+        shown.get_by_label("the picture, as PNG").click()
+    assert saved.value.suggested_filename == "read.png"
+    assert saved.value.path().read_bytes().startswith(b"\x89PNG")

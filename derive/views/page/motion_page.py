@@ -17,6 +17,7 @@ from ...code.options import Options
 from ...code.program import Program
 from ...language.expression import names
 from ...language.reserved import GREEK
+from ...language.show import show_name
 from ...language.templating import environment, folder
 from ...language.tree import Tree, replaced
 from ...motion.emitted_code import EmittedCode, in_words
@@ -88,11 +89,11 @@ COMMENT = re.compile(
 )
 """A comment; or a text, the first group, in which there is none."""
 SPACES = re.compile(
-    r"""("(?:[^"\\\n]|\\.)*"|`[^`]*`)| *([][(){}=,;?:*/<>&|]) *"""
+    r"""("(?:[^"\\\n]|\\.)*"|`[^`]*`)| *([][(){}=,;?:*/<>&|])(?:(?<=[\[({,;])\n| *)"""
     r"""|(?<=[\w$)\]]) ([-+]) (?=[\w$(.\[])"""
 )
-"""A text; or a sign, the second group, with spaces about it that a script does not need; or, the
-third, one between two numbers."""
+"""A text; or a sign, the second group, with spaces about it that a script does not need, or the end
+of its line; or, the third, one between two numbers."""
 NAME = re.compile(r"[^\W\d][\w$]*")
 TAKEN = re.compile(r"(?:(?<![\w$.])|(?<=\.\.\.))[^\W\d][\w$]*")
 """A name that is not that of a property."""
@@ -160,6 +161,7 @@ def motion_page(
         about += "; " + told.format(names=", ".join(x.input for x in problem.signals))
     found = data(code, problem, record, begin, language, vectors)
     found |= {"t": duration, "tol": tol}
+    found["words"]["save"] = language.word("the picture, as PNG")
     written = json.dumps(
         _with_integers(found), ensure_ascii=False, sort_keys=True, separators=(",", ":")
     )
@@ -325,13 +327,13 @@ def data(
     entries = element(group, made.state)
     velocity = [s for s in range(len(made.state)) if s not in {at for *_, at in entries}]
     largest = sorted(range(len(made.state)), key=lambda s: -abs(float(begin.x[s])))[:CURVES]
-    body = moving_body(record.problem, group, made.state)
+    units = {x.name: _unit(x.unit) for x in code.columns()}
+    body = moving_body(record.problem, group, made.state, {x for x in units if units[x] == "rad"})
     adjusted, curves = velocity[:MOST], [] if body["parts"] else sorted(largest)
     if "waves" in body:  # most others stay as small as they begin
         curves = [s for s in curves if begin.x[s]] or curves
     basis, heavy = made.basis if entries else (), weight(record.problem or {})
     lost = bool(drives(record.problem, {}))
-    units = {x.name: _unit(x.unit) for x in code.columns()}
     said = {x: _meaning(x, record, language, _turns(body, record)) for x in made.state}
     of_state = [(y, said[x], units[x]) for x, y in zip(made.state, state, strict=True)]
     words = _words(made, body, record, language, _unsaid(made, body, bool(entries), lost))
@@ -349,7 +351,7 @@ def data(
         "adjusted": adjusted,
         **({"lost": True} if lost else {}),
         "curves": curves,
-        **({"outputs": made.outputs} if made.outputs else {}),
+        **({"outputs": [_reading(x, units[x]) for x in made.outputs]} if made.outputs else {}),
         **({"signals": _signals(problem, made, begin.parameters)} if problem.signals else {}),
         **told,
         "body": body,
@@ -418,6 +420,11 @@ def _meaning(name: str, record: Derivation, language: Language, turning: bool) -
 def _unit(text: str) -> str:
     """A unit as it is shown."""
     return visible(text).replace("^2", "²").replace("^3", "³")
+
+
+def _reading(name: str, unit: str) -> str:
+    """What is read off the motion, as its curve is called: with its unit, if there is one."""
+    return f"{show_name(name).replace('_', ' ')}, {unit}" if unit else name
 
 
 def _labels(rows: Iterable[tuple[str, str, str]], language: Language) -> dict[str, tuple[str, str]]:
