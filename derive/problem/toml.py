@@ -25,6 +25,7 @@ from .bodies import as_forces, body, forces, group_of, negative_stiffness_of, ou
 from .entries_on_orbit import hessian, vanishes
 from .fields import (
     LIKE_A_PLACE,
+    by_points,
     called_here,
     coordinates,
     known_in_lagrangian,
@@ -239,6 +240,9 @@ def _without_points(
     reader.advected, reader.pointless = advected, True
     said = data[where]
     reader.on_the_right = isinstance(said, dict) and said.get("trivialisation") == "right"
+    taken = [x for x in tables(data, "input") if str(x.get("name")).partition("_")[0] == "w"]
+    if advected is None and not reader.on_the_right and not taken:  # as points call it, too
+        reader.by_block |= {w: zeta for zeta, w in by_points(group).items()}
     name = reader.name_of(data, of_its_own=moved is not None)
     parameters = _parameters(data.get("parameters", {}), reader)
     reader.carries(None, parameters)
