@@ -213,6 +213,15 @@ def _fluid(data: Mapping[str, Any], reader: FileReader) -> Problem:
     return Problem(name, None, title=reader.title_of(data, name), fluid=fluid)
 
 
+def _know_velocity(data: Mapping[str, Any], said: Any, reader: FileReader) -> None:
+    """Let the reader know the side of Z, and, on the left, velocities of translation by what points
+    call them, w, too, unless an input is called so."""
+    reader.on_the_right = isinstance(said, dict) and said.get("trivialisation") == "right"
+    inputs = (str(x.get("name")).partition("_")[0] for x in tables(data, "input"))
+    if reader.advected is None and not reader.on_the_right and "w" not in inputs:
+        reader.by_block |= {w: zeta for zeta, w in by_points(reader.moving()).items()}
+
+
 def _without_points(
     data: Mapping[str, Any],
     moved: Group | None,
@@ -239,10 +248,7 @@ def _without_points(
     (reader := FileReader()).moves(group)
     reader.advected, reader.pointless = advected, True
     said = data[where]
-    reader.on_the_right = isinstance(said, dict) and said.get("trivialisation") == "right"
-    taken = [x for x in tables(data, "input") if str(x.get("name")).partition("_")[0] == "w"]
-    if advected is None and not reader.on_the_right and not taken:  # as points call it, too
-        reader.by_block |= {w: zeta for zeta, w in by_points(group).items()}
+    _know_velocity(data, said, reader)
     name = reader.name_of(data, of_its_own=moved is not None)
     parameters = _parameters(data.get("parameters", {}), reader)
     reader.carries(None, parameters)
