@@ -93,11 +93,9 @@ def page_of(
         raise MotionError(f"{args.html}: the name of a page must end in .html")
     if args.input or args.linear:
         raise MotionError(
-            "--html: the inputs of a page are held, set by its sliders: leave out --input, --linear"
+            "--html: the inputs of a page go by [[signal]] of the problem, or are held, set by its "
+            "sliders: leave out --input, --linear"
         )
-    if problem.signals:
-        told = "the inputs of a page are held, set by its sliders: it has no [[signal]]"
-        print(f"derive: warning: {problem.name}: {told}", file=sys.stderr)
     if args.dt is not None or args.method not in (None, STEPS[0]):
         raise MotionError("--html: the page moves by gauss to a tolerance: leave out --dt, --step")
     return moving_page(problem, record, args.t, method_of(args, STEPS[0]), args.lang, **start)
@@ -112,7 +110,8 @@ def moving_page(
     begin = beginning(code, problem, **start)
     t = some_turns(code, begin) if t is None else t
     instants(method, t, 1)  # refuses a time that is none
-    return motion_page(code, problem, record, begin, t, method.tol, language(lang))
+    tol, held = method.tol, start["given"]
+    return motion_page(code, problem, record, begin, t, tol, language(lang), held)
 
 
 def picture_of(problem: Problem, record: Derivation, t: float, name: str, lang: str) -> bytes:

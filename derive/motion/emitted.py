@@ -20,13 +20,12 @@ from ..language.tree import Tree, replaced
 from ..language.values import value
 from ..problem.problem import Problem
 from ..record.record import Derivation
-from ..schema.body_kinds import Body, GivenBody
-from ..schema.kind import Lagrangian
+from ..schema.body_kinds import GivenBody
 from ..schema.motion_kinds import Event
 from ..views.figure.drawn_body import ExpressionValues, parts
 from ..views.figure.shapes import Curve, Shape
 from .c_binding import binding, binding_on_card, binding_to_events
-from .emitted_code import EmittedCode, base_units
+from .emitted_code import EmittedCode
 from .first_numbers import MotionError
 from .native import (
     CARD_FLAGS,
@@ -37,7 +36,7 @@ from .native import (
     loaded,
     over_cores,
 )
-from .run import Array
+from .run import Array, symmetry_axis
 from .start import central_inertia, inertia_of
 from .trajectory import MotionInPython, MotionUnderWay
 
@@ -55,18 +54,15 @@ def python_of(program: Program, record: Derivation, prefix: str, options: Option
 @dataclass(frozen=True)
 class Emitted(EmittedCode):
     """A step in time that is emitted with a program, of an ``order`` if it is the discrete one,
-    which stops at the ``events``; the ``lagrangian`` of a problem without points.
+    which stops at the events of the problem.
 
     ``facts``: what a run says of the problem.
     """
 
     step: str
     facts: Mapping[str, Any]
-    events: tuple[Event, ...] = ()
     left: OneDegree | None = None
     order: str = ""
-    lagrangian: Lagrangian | None = None
-    solid: Body | None = None
 
     @classmethod
     def of(
@@ -92,8 +88,12 @@ class Emitted(EmittedCode):
         }
         if program.state_by_block:
             facts["by_block"] = program.by_block
-        base, events, stated = base_units(problem), problem.events, problem.lagrangian
-        return cls(program, record, base, step, facts, events, left, order, stated, problem.body)
+        return cls(program, record, problem, step, facts, left, order)
+
+    @property
+    def events(self) -> tuple[Event, ...]:
+        """Those that are looked for."""
+        return self.problem.events
 
     @property
     def options(self) -> Options:
@@ -155,16 +155,21 @@ class Emitted(EmittedCode):
 
     def body(self, p: Array) -> dict[str, Any]:
         """What pictures need of a body: its tensor of inertia, if it is turned in space, of its
-        points or of ℓ, about its centre where that is free, and its :func:`outline`."""
+        points or of ℓ, about its centre where that is free, and its :func:`outline`; where mass
+        flows, and the tensor with it, the ``axis`` of its symmetry at first, if there is one."""
         numbers = dict(zip(self.python.PARAMETERS, p.tolist(), strict=True))
-        stated = self.record.problem
-        found = outline(stated, numbers) if stated else {}
+        stated, solid = self.record.problem, self.problem.body
+        found: dict[str, Any] = outline(stated, numbers) if stated else {}
+        of_state = {x: self.problem.parameters[x].default for x in self.program.masses}
+        known = numbers | {x: y for x, y in of_state.items() if y is not None}
+        central = central_inertia(self.record, solid, known) if solid else None
+        if self.program.masses and central is not None:
+            found["axis"] = symmetry_axis(central)
         if "inertia" in self.program.functions:
-            central = central_inertia(self.record, self.solid, numbers) if self.solid else None
             about_origin = np.asarray(self.python.inertia(p), dtype=float)
             found["inertia"] = (about_origin if central is None else central).tolist()
-        elif self.lagrangian and self.program.group in ("SO(3)", "SE(3)"):
-            tensor = inertia_of(self.lagrangian, numbers)
+        elif self.problem.lagrangian and self.program.group in ("SO(3)", "SE(3)"):
+            tensor = inertia_of(self.problem.lagrangian, numbers)
             found["inertia"] = [] if tensor is None else tensor.tolist()
         return {name: x for name, x in found.items() if x}
 

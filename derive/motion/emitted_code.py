@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
 from ..code.naming import own_prefix
 from ..code.program import Program
-from ..problem.force_reader import BASE, NUMBER, measured
+from ..language.tree import Tree, nodes, terms
+from ..problem.fields import state_names
+from ..problem.force_reader import BASE, LENGTH, NUMBER, TIME, Dimension, dimension, measured
 from ..problem.problem import Problem
 from ..record.record import Derivation
 
@@ -63,6 +65,8 @@ UNITS = {"time": "s", "energy": "J", "multiplier": "J", "centre": "kg m"}
 UNITS |= dict.fromkeys(("momentum", "body_momentum"), "kg m/s")
 UNITS |= dict.fromkeys(("angular_momentum", "body_angular_momentum"), "kg m^2/s")
 """Those of columns of a kind, and of the components of what is kept."""
+ALONG = ("momentum", "body_momentum", "centre")
+"""What is kept along coordinates of translations, with the unit of where these are lengths."""
 
 UNITS_OF_OUTPUTS = {"rate": "rad/s", "momentum": "kg m/s", "tension": "N", "power": "W"}
 UNITS_OF_OUTPUTS |= dict.fromkeys(("place", "distance"), "m") | {"velocity": "m/s"}
@@ -101,13 +105,58 @@ def base_units(problem: Problem) -> frozenset[str]:
     return frozenset(["kg", "m", "s"] if all(map(SI.fullmatch, factors)) else ["s"])
 
 
+ANGLES = ("sin", "cos", "tan")
+"""Functions of angles."""
+
+
+def coordinate_units(problem: Problem) -> dict[str, str]:
+    """The names of the coordinates on R(n), and of their velocities, of an ℓ that no points give or
+    of a motion of first order, with their units: m and m/s, rad and rad/s, where there are terms of
+    ℓ that are an energy with the one, or arguments of sin, cos, tan that are an angle, and none
+    with the other; empty where it is not known."""
+    stated, group = problem.lagrangian or problem.kinematics, problem.group
+    if stated is None or group is None or problem.advected is not None:
+        return {}
+    parameters = problem.parameters.items()
+    units = {x: d for x, p in parameters if (d := measured(p.unit)) is not None}
+    entries = state_names(group)
+    places = {t: name for name, t in entries.items() if name[0] == "T"}
+    found = {}
+    for a, E in enumerate(group.in_user_basis.basis, 1):
+        (i, j), *others = [(i, j) for i, row in enumerate(E, 1) for j, x in enumerate(row, 1) if x]
+        place = ("entry", "A", i, j)
+        if next(x for first, x in reversed(group.places) if first < i).vectors and not others:
+            unit = _unit_of_coordinate(stated.trees(), units, place, entries[f"zeta_{a}"])
+            found[places[place]] = unit
+            found[f"zeta_{a}"] = unit and f"{unit}/s"
+    return found
+
+
+def _unit_of_coordinate(
+    trees: Sequence[Tree], units: Mapping[str, Dimension], place: Tree, velocity: Tree
+) -> str:
+    """m or rad, of a coordinate with its velocity in expressions; else empty."""
+    each = {
+        unit: {**units, place: d, velocity: tuple(x - y for x, y in zip(d, TIME, strict=True))}
+        for unit, d in (("m", LENGTH), ("rad", NUMBER))
+    }
+    listed = [(x, measured("J")) for t in trees for x in terms(t)]
+    inside = [x for t in trees for x in nodes(t) if isinstance(x, tuple) and x[0] == "fun"]
+    listed += [(x[2], NUMBER) for x in inside if x[1] in ANGLES]
+    told = set()
+    for x, wanted in listed:
+        fitting = [unit for unit, known in each.items() if dimension(x, known) == wanted]
+        told |= {*fitting} if len(fitting) == 1 else set()
+    return told.pop() if len(told) == 1 else ""
+
+
 @dataclass(frozen=True)
 class EmittedCode:
-    """A program and its record; the :func:`base_units` of the problem."""
+    """A program, its record and its problem."""
 
     program: Program
     record: Derivation
-    base: frozenset[str]
+    problem: Problem
 
     @property
     def name(self) -> str:
@@ -137,6 +186,8 @@ class EmittedCode:
 
     def _unit(self, name: str, kind: str) -> str:
         if kind == "state":
+            if name in self.program.masses:
+                return self.problem.parameters[name].unit
             unit = self._unit_of_state(name)
         elif kind == "output":
             kind, said = self._kinds_of_outputs[name]
@@ -144,9 +195,18 @@ class EmittedCode:
                 return said
             unit = UNITS_OF_OUTPUTS.get(kind, "")
         else:
-            unit = UNITS.get(parts(name)[0] if kind == "conserved" else kind, "")
+            base, k = parts(name) if kind == "conserved" else (kind, 0)
+            unit = UNITS.get(base, "")
+            if base in ALONG:
+                told = self._coordinate_units
+                own = told.get(f"T_{k}", "" if {*told.values()} & {"", "rad"} else "m")
+                unit = {"m": unit, "rad": unit.replace("m", "m^2")}.get(own, "")
         made_of = zip(BASE, measured(unit) or NUMBER, strict=True)
-        return unit if {x for x, power in made_of if power} <= self.base else ""
+        return unit if {x for x, power in made_of if power} <= self._base else ""
+
+    @cached_property
+    def _base(self) -> frozenset[str]:
+        return base_units(self.problem)
 
     @cached_property
     def _kinds_of_outputs(self) -> dict[str, tuple[str, str]]:
@@ -155,11 +215,17 @@ class EmittedCode:
         stated = {x["name"]: (x["kind"], x["unit"]) for x in listed}
         return {x: stated.get(x) or stated[parts(x)[0]] for x in self.program.outputs}
 
+    @cached_property
+    def _coordinate_units(self) -> dict[str, str]:
+        return coordinate_units(self.problem)
+
     def _unit_of_state(self, name: str) -> str:
         """That of a place, of a velocity, and of ζ on an element of the basis: of one that does no
         more than shift, whose columns are those of the rows that are 0 where the state has a T,
         that of a velocity; of one that turns, whose matrix is skew, that of an angular velocity.
         Where there are no matrices, none is known."""
+        if name in (found := self._coordinate_units):
+            return found[name]
         if not name.startswith("zeta"):
             return {"T": "m", "w": "m/s"}.get(name[0], "")
         if self.program.state[0][0] not in "AT":

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 import json
+import math
 import zipfile
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
@@ -105,6 +106,15 @@ def shown(facts: Mapping[str, Any], name: str) -> str:
     """What a column is called where it is shown: in a product by its block, as ``w2_1``."""
     own = {x: y for y, x in facts.get("by_block", {}).items()}
     return str(own.get(name, name))
+
+
+def symmetry_axis(I: Array) -> int:  # noqa: E741
+    """The axis of the body, 1 to 3, about which a tensor of inertia (3, 3) is that of a symmetric
+    body; 0 where there is none, and of a sphere."""
+    off = np.abs(I - np.diag(np.diag(I))).max()
+    a, b, c = np.diag(I).tolist()
+    alike = [math.isclose(x, y, rel_tol=1e-9) for x, y in ((b, c), (c, a), (a, b))]
+    return alike.index(True) + 1 if alike.count(True) == 1 and off <= 1e-9 * max(a, b, c) else 0
 
 
 # Runs as files: ``.npz`` of NumPy, ``.csv`` with its facts in a comment below the names of the

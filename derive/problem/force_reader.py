@@ -83,13 +83,16 @@ def in_units(d: Dimension) -> str:
     return FORCES.get(d) or "/".join([" ".join(told[1]) or "1", *told[-1]])
 
 
-def dimension(t: Tree, known: Mapping[str, Dimension]) -> Dimension | None:
-    """That of a tree, numbers having none; ``None`` where it is not known."""
+def dimension(t: Tree, known: Mapping[Any, Dimension]) -> Dimension | None:
+    """That of a tree, by those of parameters and of entries, numbers having none; ``None`` where it
+    is not known."""
     if not isinstance(t, tuple):
         return TIME if t == "t" else NUMBER
     op, *parts = t
     if op == "par":
         return known.get(parts[0])
+    if op == "entry":
+        return known.get(t)
     if op == "fun":
         inside = dimension(parts[1], known) if parts[0] == "sqrt" else None
         return NUMBER if parts[0] in PURE else inside and tuple(Fraction(x) / 2 for x in inside)

@@ -25,6 +25,7 @@ from .bodies import as_forces, body, forces, group_of, negative_stiffness_of, ou
 from .entries_on_orbit import hessian, vanishes
 from .fields import (
     LIKE_A_PLACE,
+    by_points,
     called_here,
     coordinates,
     known_in_lagrangian,
@@ -212,6 +213,7 @@ def _fluid(data: Mapping[str, Any], reader: FileReader) -> Problem:
     return Problem(name, None, title=reader.title_of(data, name), fluid=fluid)
 
 
+<<<<<<< HEAD
 def _require_readable(data: Mapping[str, Any], where: str, on_algebra: bool) -> None:
     """``ProblemError`` for an output of what a problem without points has not."""
     others = [x for x in OUTPUTS if x not in (*OF_MASSES, ExpressionOutput.kind)]
@@ -224,6 +226,15 @@ def _require_readable(data: Mapping[str, Any], where: str, on_algebra: bool) -> 
             )
         if wrong := fault_of_gravity(x, pointless=True):
             raise ProblemError(f"output {k}: {wrong}")
+=======
+def _know_velocity(data: Mapping[str, Any], said: Any, reader: FileReader) -> None:
+    """Let the reader know the side of Z, and, on the left, velocities of translation by what points
+    call them, w, too, unless an input is called so."""
+    reader.on_the_right = isinstance(said, dict) and said.get("trivialisation") == "right"
+    inputs = (str(x.get("name")).partition("_")[0] for x in tables(data, "input"))
+    if reader.advected is None and not reader.on_the_right and "w" not in inputs:
+        reader.by_block |= {w: zeta for zeta, w in by_points(reader.moving()).items()}
+>>>>>>> units
 
 
 def _without_points(
@@ -252,7 +263,7 @@ def _without_points(
     (reader := FileReader()).moves(group)
     reader.advected, reader.pointless = advected, True
     said = data[where]
-    reader.on_the_right = isinstance(said, dict) and said.get("trivialisation") == "right"
+    _know_velocity(data, said, reader)
     name = reader.name_of(data, of_its_own=moved is not None)
     parameters = _parameters(data.get("parameters", {}), reader)
     reader.carries(None, parameters)

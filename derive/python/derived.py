@@ -289,7 +289,8 @@ class Derived(Recorded):
         code = motion_of(moves, with_seen(self.record), weightless=True)
         begin = beginning(code, self.problem, given=start or {}, exponent=exp, project=project)
         instants(Method(tol=tol), t, 1)
-        page = motion_page(code, self.problem, self.record, begin, t, tol, named(language))
+        shown, held = named(language), start or {}
+        page = motion_page(code, self.problem, self.record, begin, t, tol, shown, held)
         return Page(page)
 
     @cached_property

@@ -61,7 +61,7 @@ class Simulated(Run):
     def _ends(self) -> str:
         """The table of the first and last numbers of each column, and of the most that it was away
         from the first."""
-        from ..views.plot.time_series import with_unit
+        from ..views.plot.plot_sheet import with_unit
 
         unit = self.columns[0].unit
         first, last = (f"t = {t:g} {unit}".rstrip() for t in self.t[[0, -1]])

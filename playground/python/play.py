@@ -216,7 +216,7 @@ class Play:
         motion keeps?"""
         from derive.code.emit import emit
         from derive.code.options import Options
-        from derive.motion.emitted_code import EmittedCode, base_units
+        from derive.motion.emitted_code import EmittedCode
         from derive.motion.first_numbers import first_numbers
         from derive.programs import moving_program
         from derive.views.arrows import arrows, with_arrows
@@ -230,7 +230,7 @@ class Play:
         begin = first_numbers(with_numbers(made), self.problem, {})
         chosen = Options(step=("gauss",))
         (source,) = emit(made, record, ("javascript",), made.name, chosen).values()
-        code = EmittedCode(made, self.record, base_units(self.problem))
+        code = EmittedCode(made, self.record, self.problem)
         page = data(code, self.problem, self.record, begin, language(lang), seen)
         page |= {"t": SECONDS, "tol": TOLERANCE}
         stated = [*page["x"]]

@@ -81,7 +81,8 @@ addEventListener("message", async ({ data, source, origin }) => {
   document.title = document.querySelector("h1").textContent = data.title;
   const url = URL.createObjectURL(new Blob([data.source], { type: "text/javascript" }));
   try {
-    const module = await import(url);
+    const emitted = await import(url), { driven, mount } = globalThis.drawing;
+    const module = data.page?.signals ? driven(emitted, data.page) : emitted;
     const home = document.getElementById("motion");
     if (data.kept) {
       home.motion.keep(module, data.kept);
@@ -89,7 +90,7 @@ addEventListener("message", async ({ data, source, origin }) => {
       return;
     }
     home.replaceChildren();
-    home.motion = globalThis.drawing.mount(home, { ...data.page, ...data.moving, repeats: true, module, pointed: (lit) => tell({ lit }) }, { ...chosen(data.pieces), graph: globalThis.drawing.graph, second: globalThis.drawing.second_motion });
+    home.motion = mount(home, { ...data.page, ...data.moving, repeats: true, module, pointed: (lit) => tell({ lit }) }, { ...chosen(data.pieces), graph: globalThis.drawing.graph, second: globalThis.drawing.second_motion });
     const into = document.createElement("button");
     Object.assign(into, { type: "button", className: "into", textContent: data.into });
     into.addEventListener("click", () => tell({ numbers: numbers(home.motion, data.page, module) }));

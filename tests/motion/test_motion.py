@@ -1,5 +1,6 @@
 """Motions of derive simulate: known solutions, order, what is kept, what is refused."""
 
+import re
 import tomllib
 
 import numpy as np
@@ -250,6 +251,42 @@ g = {{ default = 9810, unit = "{g}" }}
     problem = problem_of(tomllib.loads(text))
     columns = motion_of(problem, walk(problem), "gauss").columns()
     assert units == {x.name: x.unit for x in columns if x.name in units}
+
+
+IN = {"m": "kg", "l": "m", "J": "kg m^2", "c": "V"}
+CART = "m*zeta_1^2/2 + m*l*cos(T_2)*zeta_1*zeta_2 + m*l^2*zeta_2^2/2 + 9.81*m*l*cos(T_2)"
+
+
+@pytest.mark.parametrize(
+    ("group", "L", "units"),
+    [
+        (
+            "R(3)",
+            CART + " + c*zeta_3^2",
+            "T_1 [m], T_2 [rad], T_3, zeta_1 [m/s], zeta_2 [rad/s], zeta_3, "
+            "momentum_1 [kg m/s], momentum_3, centre_3",
+        ),
+        ("R(1)", "J*zeta_1^2", "T_1 [rad], zeta_1 [rad/s], momentum_1 [kg m^2/s]"),
+        ("R(1)", "m*zeta_1^2", "T_1 [m], zeta_1 [m/s], centre_1 [kg m]"),
+        ("R(1)", "J*zeta_1^2 + m*zeta_1^2", "T_1, zeta_1"),
+        ("R(1)", "zeta_1^2 + cos(3*T_1)", "T_1 [rad], zeta_1"),
+        ("R(1)", "zeta_1^2 + cos(T_1/l)", "T_1 [m], zeta_1 [m/s]"),
+        (
+            "SO(3) x R(1)",
+            "J*(zeta_1^2 + zeta_2^2 + 2*zeta_3^2) + J*(zeta_1 + zeta_4)^2",
+            "A1_11, T2_1 [rad], zeta_3 [rad/s], zeta_4 [rad/s]",
+        ),
+        ("SE(2)", "J*zeta_1^2 + m*(zeta_2^2 + zeta_3^2)", "T_1 [m], zeta_1 [rad/s], zeta_2 [m/s]"),
+    ],
+)
+def test_a_coordinate_is_a_length_or_an_angle_where_the_lagrangian_says_so(group, L, units):
+    names = re.findall(r"\w+", L)
+    units_of = {x: {"default": 0.5, "unit": unit} for x, unit in IN.items() if x in names}
+    told = {"name": "told", "group": group, "parameters": units_of, "lagrangian": {"L": L}}
+    problem = problem_of(told)
+    columns = motion_of(problem, walk(problem), "gauss").columns()
+    heads = {f"{x.name} [{x.unit}]" if x.unit else x.name for x in columns}
+    assert {*units.split(", ")} <= heads
 
 
 AWAY = """

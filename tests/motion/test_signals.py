@@ -213,8 +213,12 @@ def test_what_is_given_wins(tmp_path, capsys):
         assert main([*command, "--input", str(table), *more, "--out", f"{tmp_path}/r.npz"]) == 0
         assert abs(np.load(tmp_path / "r.npz")["table"][-1][12] - end) < 1e-9
     capsys.readouterr()
-    assert main([*command[:2], "--t", "1", "--html", str(tmp_path / "ball.html")]) == 0
-    assert "it has no [[signal]]" in capsys.readouterr().err
+    page = ["--t", "1", "--html", str(tmp_path / "ball.html")]
+    for more in ["--set", "F_3=2"], []:
+        assert main([*command[:2], *page, *more]) == 0
+        assert not capsys.readouterr().err
+        told = "inputs in time, until they are changed here: F_3"
+        assert (told in (tmp_path / "ball.html").read_text()) == (not more)
 
 
 def test_a_run_that_goes_on_has_its_signals_again(tmp_path, capsys):

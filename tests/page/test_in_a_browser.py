@@ -2,6 +2,7 @@
 be; its sliders, numbers and keys; on a phone and by night."""
 
 import re
+import tomllib
 
 import numpy as np
 import pytest
@@ -386,3 +387,72 @@ def test_what_is_beside_keeps_its_place(width, opened):
     assert "0.0010000" in told
     assert {len(x) for x in told} == {9}
     assert len(places) == 1
+
+
+PUSHED = """
+name = "pushed"
+group = "R(3)"
+parameters = { a = 2.0, b = 4.0 }
+point = [{ mass = 1, at = [0, 0, 0] }]
+input = [{ name = "F", kind = "force", on = 1, frame = "space" }]
+output = [{ name = "push", y = ["F_1"] }]
+signal = [
+  { input = "F_1", u = "b*cos(a*t)" },
+  { input = "F_2", times = [0, 1, "b - 1"], values = [0, "a", 0], hold = false },
+  { input = "F_3", times = [0, 2], values = [1, "-a"] },
+]
+"""
+
+
+def test_inputs_follow_their_signals_until_they_are_set(opened):
+    """By the integrals of the forces on a unit mass, and after one is typed, which is held."""
+    d = derive.derive(problem_of(tomllib.loads(PUSHED)))
+    shown = opened(d.motion_page(4.0))
+    ways = {
+        0.75: [2 * np.sin(1.5), 0.75**2, 0.75],
+        2.5: [2 * np.sin(5.0), 1 + 3 - 2.25 / 2, 2 - 2 * 0.5],
+        3.5: [2 * np.sin(7.0), 3, 2 - 2 * 1.5],
+    }
+    for t, w in ways.items():
+        seek(shown, t)
+        assert np.abs(np.array(shown.evaluate(STATE)[3:]) - w).max() < 1e-7
+        scene = f"{MOTION}.scene"
+        read = f"{scene}.page.module.outputs({t}, {STATE}, {MOTION}.run.k, {scene}.u)[0]"
+        assert abs(shown.evaluate(read) - 4 * np.cos(2 * t)) < 1e-12
+    typed(shown, "F_1", "5")
+    seek(shown, 2.5)
+    assert np.abs(np.array(shown.evaluate(STATE)[3:]) - [12.5, *ways[2.5][1:]]).max() < 1e-7
+    held = opened(d.motion_page(4.0, start={"F_1": 5.0}))
+    seek(held, 2.5)
+    assert abs(held.evaluate(STATE)[3] - 12.5) < 1e-7
+
+
+READ = """
+name = "read"
+group = "SO(2)"
+point = [{ mass = 1, at = [0, -1] }]
+output = [
+  { name = "hwheel_momentum", unit = "kg m^2/s", y = ["zeta_1"] },
+  { name = "height", y = ["-A_11"] },
+]
+"""
+
+
+def test_readings_are_called_whole_and_with_their_units_and_the_picture_is_saved(opened):
+    shown = opened(derive.derive(problem_of(tomllib.loads(READ))).motion_page(4.0))
+    shown.evaluate("""() => {
+        const { prototype } = CanvasRenderingContext2D, own = prototype.fillText;
+        globalThis.written = {};
+        prototype.fillText = function (what, x, y) {
+            globalThis.written[what] = x + this.measureText(what).width - this.canvas.clientWidth;
+            own.call(this, what, x, y);
+        };
+    }""")
+    seek(shown, 2)
+    written = shown.evaluate("globalThis.written")
+    assert written["hwheel momentum, kg m²/s"] <= 0
+    assert written["height"] <= 0
+    with shown.expect_download() as saved:
+        shown.get_by_label("the picture, as PNG").click()
+    assert saved.value.suggested_filename == "read.png"
+    assert saved.value.path().read_bytes().startswith(b"\x89PNG")

@@ -1,6 +1,7 @@
 """What the pictures draw: series in time, polhodes, wells of a potential, bodies, fluids."""
 
 import importlib
+import re
 
 import numpy as np
 import pytest
@@ -103,6 +104,48 @@ def test_a_state_that_is_too_fast_for_its_instants_is_named_instead(turned):
     panel, words = panel_of(plain_run(np.stack([t, columns[0]], 1), A_11="state"), "state")
     assert bool(curves(panel)) is slow
     assert ("too few instants:" in words) is not slow
+
+
+def test_what_has_too_few_instants_has_no_panel_and_is_told_how_many_would_do():
+    """And with as many it has a curve; the names of a product are those of its blocks."""
+
+    def drawn(points):
+        t = np.linspace(0, 199, points)
+        columns = {"A1_11": np.cos(t), "T2_1": 0.1 * t, "zeta2_1": np.sin(0.02 * t)}
+        table = np.stack([t, *columns.values()], 1)
+        panels = figure_of(plain_run(table, **dict.fromkeys(columns, "state")), "state").get_axes()
+        return [name for x in panels for name in curves(x)], panels[-1].get_xlabel()
+
+    names, told = drawn(200)
+    assert names == ["$(T_{2})_{1}$", r"$(\zeta_{2})_{1}$"]
+    assert "too few instants: $(A_{1})_{11}$" in told
+    (count,) = re.findall("simulate with --points ([0-9]+)", told)
+    names, told = drawn(int(count))
+    assert names[0] == "$(A_{1})_{11}$"
+    assert "instants" not in told
+
+
+@pytest.mark.parametrize("axis", [1, 2, 3])
+def test_of_a_symmetric_body_its_axis_is_drawn_however_far_it_goes(axis):
+    t = np.linspace(0, 3, 50)
+    k = axis % 3  # about which it turns, and which is not drawn
+    i, j = (k + 1) % 3, (k + 2) % 3
+    A = np.zeros((50, 3, 3))
+    A[:, k, k] = 1
+    A[:, i, i] = A[:, j, j] = np.cos(t)
+    A[:, i, j], A[:, j, i] = -np.sin(t), np.sin(t)
+    names = dict.fromkeys([f"A_{a}{b}" for a in (1, 2, 3) for b in (1, 2, 3)], "state")
+    run = plain_run(np.column_stack([t, A.reshape(50, 9)]), **names)
+    moments = [2.0, 2.0, 2.0]
+    moments[axis - 1] = 0.5
+    for body, told in (
+        ({}, k + 1),
+        ({"inertia": np.diag(moments).tolist()}, axis),
+        ({"axis": axis}, axis),
+    ):
+        run.facts["body"] = body
+        panel, *_ = figure_of(run, "state").get_axes()
+        assert panel.get_ylabel().startswith(f"axis {told} of the body")
 
 
 def test_a_rotation_is_drawn_by_its_calmest_axis_and_a_turn_of_the_plane_by_its_angle():

@@ -339,3 +339,23 @@ def test_in_the_plane_a_rotation_is_rows(said):
     told = r"'(rpy|axis)' is of R\^3; give rotation = \[\[c, -s\], \[s, c\]\] with numbers"
     with pytest.raises(ProblemError, match=told):
         problem_of({"name": "b", "group": "SE(2)", "body": {"given": given}})
+
+
+def test_velocities_of_translation_have_two_names_beside_a_lagrangian():
+    """w_1 is zeta_4 of SE(3), zeta_2 of SE(2), unless an input is called so."""
+
+    def told(group, x, **more):
+        L = " + ".join(f"{k}*zeta_{k}^2" for k in range(1, 7 if group == "SE(3)" else 4))
+        output = [{"name": "fast", "y": [f"{x} + t"]}]
+        head = {"name": "told", "group": group, "lagrangian": {"L": L}, "output": output}
+        return problem_of(head | more)
+
+    for group, w, zeta in ("SE(3)", "w_2", "zeta_5"), ("SE(2)", "w_2", "zeta_3"):
+        assert told(group, w).outputs == told(group, zeta).outputs
+    started = told("SE(3)", "w_1", initial={"w_3": 2})
+    assert [*started.initial.numbers] == ["zeta_6"]
+    with pytest.raises(ProblemError, match="the same number as zeta_6"):
+        told("SE(3)", "w_1", initial={"w_3": 2, "zeta_6": 1})
+    wind = {"input": [{"name": "w_2", "kind": "scalar"}]}
+    push = {"force": [{"name": "push", "covector": ["w_2", 0, 0, 0, 0, 0]}]}
+    assert told("SE(3)", "w_2", **wind, **push).outputs != told("SE(3)", "zeta_5").outputs

@@ -9,16 +9,21 @@ import json
 import re
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import replace
+from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
 from ...code.emit import emit
 from ...code.options import Options
 from ...code.program import Program
+from ...language.expression import names
 from ...language.reserved import GREEK
+from ...language.show import show_name
 from ...language.templating import environment, folder
+from ...language.tree import Tree, replaced
 from ...motion.emitted_code import EmittedCode, in_words
 from ...motion.first_numbers import FirstNumbers, drives, is_free, weight
 from ...problem.problem import Problem
+from ...record.as_json import encode
 from ...record.record import Derivation
 from ..answer import PLANE
 from ..arrows import ORIGIN, TURNING, Arrow, arrows, drawn, legend, with_arrows
@@ -47,11 +52,11 @@ COMMENT = re.compile(
 )
 """A comment; or a text, the first group, in which there is none."""
 SPACES = re.compile(
-    r"""("(?:[^"\\\n]|\\.)*"|`[^`]*`)| *([][(){}=,;?:*/<>&|]) *"""
+    r"""("(?:[^"\\\n]|\\.)*"|`[^`]*`)| *([][(){}=,;?:*/<>&|])(?:(?<=[\[({,;])\n| *)"""
     r"""|(?<=[\w$)\]]) ([-+]) (?=[\w$(.\[])"""
 )
-"""A text; or a sign, the second group, with spaces about it that a script does not need; or, the
-third, one between two numbers."""
+"""A text; or a sign, the second group, with spaces about it that a script does not need, or the end
+of its line; or, the third, one between two numbers."""
 NAME = re.compile(r"[^\W\d][\w$]*")
 TAKEN = re.compile(r"(?:(?<![\w$.])|(?<=\.\.\.))[^\W\d][\w$]*")
 """A name that is not that of a property."""
@@ -76,6 +81,7 @@ SCRIPTS = (
     "arrows",
     "stage",
     "chart",
+    "driven",
     "vorticity",
     "second",
     "polhode",
@@ -106,12 +112,19 @@ def motion_page(
     duration: float,
     tol: float,
     language: Language = ENGLISH,
+    held: Collection[str] = (),
 ) -> str:
     """The page of a motion from 0 to ``duration``, to a tolerance; the code is that of the record
-    :func:`.with_seen`."""
+    :func:`.with_seen`.  Inputs go by their signals, but those that are ``held``."""
     vectors = seen(record)
+    problem = replace(problem, signals=tuple(x for x in problem.signals if x.input not in held))
+    about = capitalised(subtitle(record, language))
+    if problem.signals:
+        told = language.word("inputs in time, until they are changed here: {names}")
+        about += "; " + told.format(names=", ".join(x.input for x in problem.signals))
     found = data(code, problem, record, begin, language, vectors)
     found |= {"t": duration, "tol": tol}
+    found["words"]["save"] = language.word("the picture, as PNG")
     written = json.dumps(
         _with_integers(found), ensure_ascii=False, sort_keys=True, separators=(",", ":")
     )
@@ -119,7 +132,7 @@ def motion_page(
     return template.render(
         language=language.name,
         title=visible(title(record, language)),
-        about=visible(capitalised(subtitle(record, language))),
+        about=visible(about),
         needs_script=language.word("The motion is computed by a script."),
         style=style(),
         data=written.replace("<", "\\u003c"),
@@ -162,14 +175,15 @@ def script(code: EmittedCode, record: Derivation, page: Data) -> str:
         (folder("html") / "motion" / f"{x}.js").read_text(encoding="utf-8") for x in SCRIPTS
     )
     chosen = pieces(page)
-    drawing = called(drawing, ["mount", *chosen.values()])
+    drawing = called(drawing, ["mount", *chosen.values(), *(["driven"] * ("signals" in page))])
+    moved = "driven(emitted, page)" if "signals" in page else "emitted"
     given = ", ".join(f"{name}: {x}" for name, x in chosen.items())
     return lean(
         f'"use strict";\nconst emitted = (() => {{\n{module}'
         f"return {{ {', '.join(names)} }};\n}})();\n"
         f'{drawing}\nconst page = JSON.parse(document.getElementById("page").textContent);\n'
         'const home = document.getElementById("motion");\n'
-        f"home.motion = mount(home, {{ module: emitted, ...page }}, {{ {given} }});\n"
+        f"home.motion = mount(home, {{ module: {moved}, ...page }}, {{ {given} }});\n"
     )
 
 
@@ -276,13 +290,13 @@ def data(
     entries = element(group, made.state)
     velocity = [s for s in range(len(made.state)) if s not in {at for *_, at in entries}]
     largest = sorted(range(len(made.state)), key=lambda s: -abs(float(begin.x[s])))[:CURVES]
-    body = moving_body(record.problem, group, made.state)
+    units = {x.name: _unit(x.unit) for x in code.columns()}
+    body = moving_body(record.problem, group, made.state, {x for x in units if units[x] == "rad"})
     adjusted, curves = velocity[:MOST], [] if body["parts"] else sorted(largest)
     if "waves" in body:  # most others stay as small as they begin
         curves = [s for s in curves if begin.x[s]] or curves
     basis, heavy = made.basis if entries else (), weight(record.problem or {})
     lost = bool(drives(record.problem, {}))
-    units = {x.name: _unit(x.unit) for x in code.columns()}
     said = {x: _meaning(x, record, language, _turns(body, record)) for x in made.state}
     of_state = [(y, said[x], units[x]) for x, y in zip(made.state, state, strict=True)]
     words = _words(made, body, record, language, _unsaid(made, body, bool(entries), lost))
@@ -300,7 +314,8 @@ def data(
         "adjusted": adjusted,
         **({"lost": True} if lost else {}),
         "curves": curves,
-        **({"outputs": made.outputs} if made.outputs else {}),
+        **({"outputs": [_reading(x, units[x]) for x in made.outputs]} if made.outputs else {}),
+        **({"signals": _signals(problem, made, begin.parameters)} if problem.signals else {}),
         **told,
         "body": body,
         "labels": {
@@ -317,6 +332,26 @@ def data(
     }
 
 
+def _signals(problem: Problem, made: Program, numbers: Mapping[str, float]) -> list[Data]:
+    """The inputs in time, by their places: trees, in which what is no parameter of the code has its
+    number."""
+    known = {x for x, *_ in made.parameters}
+    stand = {x: y for x, y in numbers.items() if x not in known}
+
+    def told(t: Tree) -> Data:
+        for name in {*names(t)} & {*stand}:
+            t = replaced(t, ("par", name), Fraction(stand[name]))
+        return encode(t)
+
+    return [
+        {"i": made.inputs.index(x.input)}
+        | ({"u": told(x.u)} if x.u is not None else {})
+        | {"held": x.hold}
+        | {k: [*map(told, ts)] for k, ts in (("times", x.times), ("values", x.samples)) if ts}
+        for x in problem.signals
+    ]
+
+
 def _apart(
     code: EmittedCode, record: Derivation, vectors: Sequence[Arrow], language: Language
 ) -> tuple[EmittedCode, dict[str, Any]]:
@@ -325,7 +360,7 @@ def _apart(
     own = outputs[: len(outputs) - sum(len(x.entries) for x in vectors)]
     meanings = [x["meaning"] for x in legend(record, vectors, language)]
     told = {"arrows": drawn(record, vectors, len(own)), "meanings": meanings} if vectors else {}
-    return EmittedCode(replace(code.program, outputs=own), record, code.base), told
+    return EmittedCode(replace(code.program, outputs=own), record, code.problem), told
 
 
 def _turns(body: Data, record: Derivation) -> bool:
@@ -348,6 +383,11 @@ def _meaning(name: str, record: Derivation, language: Language, turning: bool) -
 def _unit(text: str) -> str:
     """A unit as it is shown."""
     return visible(text).replace("^2", "²").replace("^3", "³")
+
+
+def _reading(name: str, unit: str) -> str:
+    """What is read off the motion, as its curve is called: with its unit, if there is one."""
+    return f"{show_name(name).replace('_', ' ')}, {unit}" if unit else name
 
 
 def _labels(rows: Iterable[tuple[str, str, str]], language: Language) -> dict[str, tuple[str, str]]:

@@ -5,7 +5,7 @@ A tree is as the record has it, which the page evaluates: so the body follows it
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from typing import Any
 
 from ...algebra.groups import Group
@@ -22,12 +22,18 @@ Data = Any
 """Numbers and trees, in lists and by names, as JSON has them."""
 
 
-def moving_body(problem: Mapping[str, Any], group: Group | None, state: Sequence[str]) -> Data:
+def moving_body(
+    problem: Mapping[str, Any],
+    group: Group | None,
+    state: Sequence[str],
+    angles: Collection[str] = (),
+) -> Data:
     """What is drawn of the problem of a record: ``parts``, one for each factor of the group that
     moves points of the plane or of space, none where one of them does not; ``springs`` between
     them; ``gravity``; ``polhode``, the places of an angular velocity in the state; ``stretches``:
     can it become flat, as volumes are not kept? ``waves``: the coefficients of the vorticity of a
-    fluid on the torus, where there is one."""
+    fluid on the torus, where there is one. What is among the ``angles`` of the state moves nothing
+    from its place."""
     none = {"parts": [], "springs": [], "gravity": [0, 0, 0], "polhode": [], "turns": False}
     none["stretches"] = False
     if "torus" in problem:
@@ -38,7 +44,8 @@ def moving_body(problem: Mapping[str, Any], group: Group | None, state: Sequence
     at = element(group, state)
     if not at:
         return none
-    parts = [_part(problem, k, at, group, state) for k in range(len(group.places))]
+    moved = [x for x in at if state[x[2]] not in angles]
+    parts = [_part(problem, k, moved, group, state) for k in range(len(group.places))]
     home = {i: k for k, part in enumerate(parts) for i, *_ in part["points"]}
     springs = [p["between"] for p in problem["potentials"] if "between" in p]
     turning = _turning(group, state, {place for _, _, place in at})

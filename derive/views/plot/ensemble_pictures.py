@@ -18,8 +18,7 @@ from ...language.reserved import did_you_mean, near_name
 from ...motion.ensemble import Ensemble
 from ...motion.run import MARK, Array, Run, called, read, shown
 from .body_pictures import ATTITUDE
-from .plot_sheet import COLOURS, PlotError, ending, label, look, sheet, written
-from .time_series import with_unit
+from .plot_sheet import COLOURS, PlotError, ending, label, look, sheet, with_unit, written
 
 # Pictures of ensembles: how its motions spread in time, and where they are at the end.
 

@@ -12,7 +12,7 @@ import numpy as np
 
 from ...language.limits import Refused
 from ...language.reserved import GREEK, letter_and_suffix
-from ...motion.run import Array
+from ...motion.run import Array, Run
 
 FORMATS: dict[str, dict[str, Any]] = {
     ".svg": {"metadata": {"Date": None, "Creator": None}},
@@ -128,16 +128,42 @@ def at_time(run: Any, k: int) -> str:
 
 
 def label(name: str) -> str:
-    """The name of a column as a formula: ``zeta_1`` → ζ with the index 1."""
+    """The name of a column as a formula: ``zeta_1`` → ζ with the index 1, ``A2_11`` → A₂, the
+    matrix of block 2, in parentheses with the indices 1, 1."""
     letter, index = letter_and_suffix(name)
     stem = letter.rstrip("0123456789")  # zeta2 is ζ of block 2
-    shown = f"\\{letter}" if stem in GREEK else letter
-    if not re.fullmatch(r"\\?[A-Za-z]+[0-9]*", shown) or not re.fullmatch(r"\w*", index, re.A):
+    shown, block = f"\\{stem}" if stem in GREEK else stem, letter[len(stem) :]
+    if not re.fullmatch(r"\\?[A-Za-z]+", shown) or not re.fullmatch(r"\w*", index, re.A):
         return name.replace("$", r"\$")
     if len(letter) > 2 and stem not in GREEK:
         return name.replace("_", " ")
+    if block:
+        shown = f"({shown}_{{{block}}})" if index else f"{shown}_{{{block}}}"
     lower = index.replace("_", ",")
     return f"${shown}_{{{lower}}}$" if lower else f"${shown}$"
+
+
+def time_label(run: Run) -> str:
+    """t with its unit."""
+    return with_unit("$t$", run.columns[0].unit)
+
+
+def with_unit(text: str, unit: str) -> str:
+    """A label with its unit, if there is one."""
+    raised = unit.replace("^2", "²").replace("^3", "³")
+    return f"{text} [{raised}]" if unit else text
+
+
+def method_in_words(run: Run, word: Any) -> str:
+    """The step of a run, with its tolerance as a power of ten, or the size of its steps."""
+    told = str(run.facts.get("method", "?")).replace("$", r"\$")
+    told = re.sub(r"^discrete of order(?= \d)", word("discrete of order"), told)
+    return re.sub(r"\b(?:(\d\.?\d*)e)(-?)0*(\d+)$", _power, told)
+
+
+def _power(found: re.Match[str]) -> str:
+    digits = "" if found[1] == "1" else rf"{found[1]} \cdot "
+    return f"${digits}10^{{{found[2]}{found[3]}}}$"
 
 
 # Where the labels of marks stand: off the outline of an ellipsoid, off other labels and marks.

@@ -14,9 +14,9 @@ import numpy as np
 
 from ...language.reserved import by_letter, letter_and_suffix, waves
 from ...motion.emitted_code import VECTORS, Column, in_words, parts
-from ...motion.run import Array, Run, shown
+from ...motion.run import Array, Run, shown, symmetry_axis
 from .body_pictures import BODY_AXIS, attitude, in_math, paths
-from .plot_sheet import COLOURS, at_time, label
+from .plot_sheet import COLOURS, at_time, label, method_in_words, time_label, with_unit
 
 # The state against time, and how well what motions keep was kept.
 
@@ -24,7 +24,7 @@ MOST = 12
 """So many curves a panel: of more, the first are drawn."""
 
 LONG = 14
-"""Longer names, which are words and no letters, stand one a line; those of letters four."""
+"""Longer names, which are words and no letters, stand one a line; those of letters eight."""
 
 LINE = 30
 """So many letters a line of what stands beside an axis: as much as a panel is high."""
@@ -59,8 +59,9 @@ class Panel:
 
 
 def turned(run: Run, key: str, members: list[Column], word: Any) -> Panel | None:
-    """Of a rotation of space the tip of that axis of the body that goes least far, of one of the
-    plane its angle: all entries say no more, and hide it.  ``None`` of other columns."""
+    """Of a rotation of space the tip of the axis of a symmetric body, of another that of the axis
+    that goes least far, of one of the plane its angle: all entries say no more, and hide it.
+    ``None`` of other columns."""
     n = math.isqrt(len(members))
     if [letter_and_suffix(x.name)[1] for x in members] not in INDICES:
         return None
@@ -72,7 +73,9 @@ def turned(run: Run, key: str, members: list[Column], word: Any) -> Panel | None
         angle: Array = np.full(len(A), np.nan)
         angle[there] = np.unwrap(np.arctan2(A[there, 1, 0], A[there, 0, 0]))
         return Panel(word("angle"), "rad", {word("angle"): angle})
-    k = int(np.argmin(paths(A)))
+    body = run.facts.get("body", {}) if key == "A" else {}
+    axis = symmetry_axis(np.array(body["inertia"])) if "inertia" in body else body.get("axis", 0)
+    k = axis - 1 if axis else int(np.argmin(paths(A)))
     tip = {label(members[n * i + k].name): A[:, i, k] for i in range(n)}
     return Panel(f"{word(BODY_AXIS).format(k=k + 1)}\n{label(key)}$\\,e_{k + 1}$", "", tip)
 
@@ -83,29 +86,52 @@ INDICES = [[f"{i}{j}" for i in range(1, n + 1) for j in range(1, n + 1)] for n i
 
 def size_of_state(run: Run, kind: str = "state") -> tuple[float, float]:
     """Width and height of :func:`state`."""
-    return 6.5, 0.6 + 1.7 * len(letters(run, kind))
+    listed, told = panels(run, str, kind)
+    return 6.5, 0.6 + 1.7 * len(listed) + 0.15 * len(told.splitlines())
 
 
 def state(figure: Any, run: Run, word: Any, kind: str = "state") -> None:
     """The columns of the state against time, a panel each letter (A, T, ζ, …); or those of what is
     read off the motion, a panel each name."""
-    groups = letters(run, kind)
-    panels = figure.subplots(len(groups), 1, sharex=True, squeeze=False)[:, 0]
-    for panel, (key, members) in zip(panels, groups, strict=True):
+    listed, told = panels(run, word, kind)
+    axes = figure.subplots(len(listed) or 1, 1, sharex=True, squeeze=False)[:, 0]
+    for axis, panel in zip(axes, listed, strict=False):
+        for k, (name, y) in enumerate(panel.curves.items()):
+            axis.plot(run.t, y, **_style(k), label=name)
+        name = next(iter(panel.curves)) if len(panel.curves) == 1 else panel.name
+        axis.set_ylabel(with_unit(name, panel.unit))
+        _legend(axis, run, "")
+    if not listed:
+        axes[0].set_axis_off()
+        axes[0].text(0.5, 0.5, told, transform=axes[0].transAxes, ha="center", va="center", size=8)
+        return
+    axes[-1].set_xlabel(time_label(run) + missing(run, word, kind) + f"\n{told}".rstrip())
+
+
+def panels(run: Run, word: Any, kind: str) -> tuple[list[Panel], str]:
+    """Those of :func:`state` with what has instants enough for a curve; and lines that say what has
+    too few, and how many would do, empty where nothing has."""
+    found, fast, most = [], [], 0.0
+    for key, members in letters(run, kind):
         drawn = turned(run, key, members, word) if kind == "state" else None
         if drawn is None:
             curves = {label(x.name): run[x.name] for x in members}
             drawn = Panel(label(key), members[0].unit, curves)
-        size, fast = max(float(np.abs(known(y)).max()) for y in drawn.curves.values()), []
-        for k, (name, y) in enumerate([*drawn.curves.items()][:MOST]):
-            if _is_too_fast(y, size):
+        size, slow = max(float(np.abs(known(y)).max()) for y in drawn.curves.values()), {}
+        for name, y in [*drawn.curves.items()][:MOST]:
+            if (often := _turning_back(y, size)) > OFTEN:
                 fast.append(name)
-                continue
-            panel.plot(run.t, y, **_style(k), label=name)
-        name = next(iter(drawn.curves)) if len(drawn.curves) == 1 else drawn.name
-        panel.set_ylabel(with_unit(name, drawn.unit))
-        _legend(panel, run, _named(f"{word('too few instants:')}\n", fast))
-    panels[-1].set_xlabel(time_label(run) + missing(run, word, kind))
+                most = max(most, often)
+            else:
+                slow[name] = y
+        if slow:
+            found.append(replace(drawn, curves=slow))
+    if not fast:
+        return found, ""
+    count = 2 * len(run.t) * most / OFTEN  # what turns back so often may do so more often still
+    power = 10 ** int(math.log10(count) - 1)
+    advice = word("simulate with --points {count}").format(count=math.ceil(count / power) * power)
+    return found, _named(f"{word('too few instants:')} ", fast) + f"\n{advice}"
 
 
 def known(y: Array) -> Array:
@@ -127,18 +153,22 @@ def missing(run: Run, word: Any, *kinds: str) -> str:
     return f"\n{told.format(count=len(lost), **where)}"
 
 
-def _is_too_fast(y: Array, size: float) -> bool:
-    """Does a column turn back too often for the instants of its run?"""
+def _turning_back(y: Array, size: float) -> float:
+    """At what part of the instants of its run a column turns back; 0 of one that is even."""
     y = known(y)
     if len(y) < 1 / OFTEN or np.ptp(y) <= EVEN * size:
-        return False
+        return 0.0
     steps = np.diff(y)
-    return bool((steps[1:] * steps[:-1] < 0).mean() > OFTEN)
+    return float((steps[1:] * steps[:-1] < 0).mean())
+
+
+def _is_long(name: str) -> bool:
+    return len(name) > LONG and name[0] != "$"
 
 
 def _named(why: str, names: Sequence[str]) -> str:
     """Why some curves are not drawn, and which; empty where all are."""
-    each = 1 if max(map(len, names), default=0) > LONG else 4
+    each = 1 if any(map(_is_long, names)) else 8
     lines = [", ".join(names[k : k + each]) for k in range(0, len(names), each)]
     return why + ",\n".join(lines) if names else ""
 
@@ -155,8 +185,7 @@ def _legend(panel: Any, run: Run, others: str) -> None:
         panel.plot([], [], " ", label=others)
     elif drawn == 1:  # its name is that of the axis
         return
-    longest = max(len(str(x.get_label())) for x in panel.get_lines())
-    several = drawn > 6 and longest <= LONG
+    several = drawn > 6 and not any(_is_long(str(x.get_label())) for x in panel.get_lines())
     panel.legend(loc="center left", bbox_to_anchor=(1, 0.5), ncols=1 + several)
 
 
@@ -259,18 +288,6 @@ def _errors(panel: Any, run: Run, about: Sequence[str], kept: Sequence[str], los
     _legend(panel, run, "\n".join(kept))
 
 
-def method_in_words(run: Run, word: Any) -> str:
-    """The step of a run, with its tolerance as a power of ten, or the size of its steps."""
-    told = str(run.facts.get("method", "?")).replace("$", r"\$")
-    told = re.sub(r"^discrete of order(?= \d)", word("discrete of order"), told)
-    return re.sub(r"\b(?:(\d\.?\d*)e)(-?)0*(\d+)$", _power, told)
-
-
-def _power(found: re.Match[str]) -> str:
-    digits = "" if found[1] == "1" else rf"{found[1]} \cdot "
-    return f"${digits}10^{{{found[2]}{found[3]}}}$"
-
-
 def norms(run: Run) -> dict[str, float]:
     """Vector → its norm at first, of the conserved quantities that are vectors."""
     first: dict[str, list[float]] = {}
@@ -291,17 +308,6 @@ def base_of(name: str) -> str:
 
 ROUNDED = 1e-12
 """What is smaller, relative to others of its name, was 0."""
-
-
-def time_label(run: Run) -> str:
-    """t with its unit."""
-    return with_unit("$t$", run.columns[0].unit)
-
-
-def with_unit(text: str, unit: str) -> str:
-    """A label with its unit, if there is one."""
-    raised = unit.replace("^2", "²").replace("^3", "³")
-    return f"{text} [{raised}]" if unit else text
 
 
 # The effective potential of what the symmetries leave, with the run in it.

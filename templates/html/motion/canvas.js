@@ -192,3 +192,12 @@ function spring({ stroke }, { to, items }, a, b, colour) {
   points.push(q);
   items.push([(p[2] + q[2]) / 2, () => stroke(points, colour)]);
 }
+
+/* a canvas as a file, on the colour of the page */
+function save_picture(from) {
+  const { width, height } = from, to = make("canvas", { width, height }), pen = to.getContext("2d");
+  pen.fillStyle = getComputedStyle(document.body).backgroundColor;
+  pen.fillRect(0, 0, width, height);
+  pen.drawImage(from, 0, 0);
+  make("a", { href: to.toDataURL(), download: `${document.title}.png` }).click();
+}

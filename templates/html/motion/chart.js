@@ -14,7 +14,8 @@ function chart(scene, label, places, names = scene.page.names, values = (t, x) =
       const lost = trail.filter(([, x]) => places.some((s) => isNaN(x[s])));
       const least = min(...all), most = max(...all), large = max(abs(least), abs(most)), range = most - least;
       const middle = (least + most) / 2, half = max(range / 2, 0.02 * large, 1e-12), many = places.length > 1;
-      const left = 64, right = view.width - 46, foot = view.height - 18;
+      pen.font = "12px Georgia, serif";
+      const label = (s) => called(names[s]), left = 64, right = view.width - 16 - max(...places.map((s) => pen.measureText(label(s)).width)), foot = view.height - 18;
       const X = (t) => left + (right - left) * (t - t0) / (t1 - t0), Y = (v) => (8 + foot) / 2 - (foot - 8) * (v - middle) / half / 2.16;
       const write = (what, x, y, align, colour = colours.soft) => {
         pen.fillStyle = colour;
@@ -22,7 +23,6 @@ function chart(scene, label, places, names = scene.page.names, values = (t, x) =
         pen.fillText(what, x, y);
       };
       const short = (v) => shown(v, page, 3, v);
-      pen.font = "12px Georgia, serif";
       pen.textBaseline = "middle";
       pen.setLineDash([]);
       view.stroke([[left, 8], [left, foot], [right, foot]], colours.line, 1);
@@ -46,7 +46,7 @@ function chart(scene, label, places, names = scene.page.names, values = (t, x) =
         }
         view.stroke(trail.map(([t, x]) => [X(t), Y(x[s])]), colour, 1.5);
         view.stroke([[right + 2, y], [right + 11, at[k]]], colours.line); // to its name: no part of the curve
-        write(called(names[s]), right + 13, at[k], "left", colour);
+        write(label(s), right + 13, at[k], "left", colour);
       });
     },
   };

@@ -386,7 +386,7 @@ function mount(element, page, pieces) {
     home,
     make("div", { class: "controls", role: "group", [aria]: words.controls },
       button("❘◂", words.again, () => seek(0)), button("◂", words.back, () => stepped(-1)), toggle,
-      button("▸", words.step, () => stepped(1)), slider, clock, make("label", {}, words.until, " ", lengths), make("label", {}, words.pace, " ", speeds), within, second?.element ?? ""),
+      button("▸", words.step, () => stepped(1)), words.save ? button("↓", words.save, () => save_picture(stage.element)) : "", slider, clock, make("label", {}, words.until, " ", lengths), make("label", {}, words.pace, " ", speeds), within, second?.element ?? ""),
     make("div", { class: "beside" }, ...(graph ? [graph.figure, table, ...beside] : [...beside, table]), make("p", { class: "keys" }, words.keys)),
   );
   on(document, "keydown", (e) => {
