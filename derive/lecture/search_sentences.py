@@ -131,8 +131,8 @@ VERDICTS = {
     },
     "enclosure": {"stable": STABLE, "unstable": UNSTABLE, "open": OPEN},
     "family": {
-        "stable": "stable where {cases}",
-        "stable_always": STABLE,
+        **dict.fromkeys(("stable", "stable_beyond"), "stable where {cases}"),
+        **dict.fromkeys(("stable_always", "stable_beyond_always"), STABLE),
         "on_the_leaf": "stable for motions with the same Casimirs where {cases}",
         "on_the_leaf_always": ON_LEAF,
         **dict.fromkeys(("unstable", "unstable_large"), "unstable where {cases}"),

@@ -213,7 +213,6 @@ def _fluid(data: Mapping[str, Any], reader: FileReader) -> Problem:
     return Problem(name, None, title=reader.title_of(data, name), fluid=fluid)
 
 
-<<<<<<< HEAD
 def _require_readable(data: Mapping[str, Any], where: str, on_algebra: bool) -> None:
     """``ProblemError`` for an output of what a problem without points has not."""
     others = [x for x in OUTPUTS if x not in (*OF_MASSES, ExpressionOutput.kind)]
@@ -226,7 +225,8 @@ def _require_readable(data: Mapping[str, Any], where: str, on_algebra: bool) -> 
             )
         if wrong := fault_of_gravity(x, pointless=True):
             raise ProblemError(f"output {k}: {wrong}")
-=======
+
+
 def _know_velocity(data: Mapping[str, Any], said: Any, reader: FileReader) -> None:
     """Let the reader know the side of Z, and, on the left, velocities of translation by what points
     call them, w, too, unless an input is called so."""
@@ -234,7 +234,6 @@ def _know_velocity(data: Mapping[str, Any], said: Any, reader: FileReader) -> No
     inputs = (str(x.get("name")).partition("_")[0] for x in tables(data, "input"))
     if reader.advected is None and not reader.on_the_right and "w" not in inputs:
         reader.by_block |= {w: zeta for zeta, w in by_points(reader.moving()).items()}
->>>>>>> units
 
 
 def _without_points(
