@@ -9,7 +9,7 @@ from fractions import Fraction
 from typing import Any
 
 from ..algebra.groups import Group
-from ..language.reserved import carried_entries
+from ..language.reserved import advected_entries
 from ..language.show import show
 from ..language.tree import Tree, add, mul, neg, nodes, replaced, sized
 from ..record.as_json import decode
@@ -187,5 +187,5 @@ def _angle(t: Any) -> tuple[Tree, list[tuple[Tree, str]]] | None:
 def _as_typed(t: Tree, problem: Mapping[str, Any], group: Group) -> Tree:
     """By the names of the problem file; what an algebra carries along by its own."""
     if isinstance(t, tuple) and t[0] == "entry" and t[1] == "Γ":
-        return ("par", carried_entries(problem)[t[2] - 1])
+        return ("par", advected_entries(problem)[t[2] - 1])
     return typed(t, group)

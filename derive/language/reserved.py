@@ -122,7 +122,7 @@ def suffixed(name: str, *index: int) -> str:
     return f"{name}_{digits}"
 
 
-def carried_entries(problem: Mapping[str, Any]) -> list[str]:
+def advected_entries(problem: Mapping[str, Any]) -> list[str]:
     """The names of the entries of Γ, all that an algebra carries along, in a record's problem."""
     carried = problem.get("advected") or ()
     return [suffixed(x["name"], i) for x in carried for i in range(1, x["size"] + 1)]

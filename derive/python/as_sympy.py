@@ -13,7 +13,7 @@ from typing import Any
 import sympy
 
 from ..language.read import read
-from ..language.reserved import carried_entries
+from ..language.reserved import advected_entries
 from ..language.show import show, show_name
 from ..language.tree import Tree, nodes, replaced
 from ..problem.problem import ProblemError
@@ -52,7 +52,7 @@ class Translation:
         self.n = sympy.Integer(n) if isinstance(n, int) else _natural("n")
         self.own = {*named_numbers(record)}
         self.apart = self.own - ({"m"} if problem["body"]["kind"] == "moments" else set())
-        self.carried = carried_entries(problem)
+        self.carried = advected_entries(problem)
         self.types = {x.name: [use.type for use in x.uses] for x in record.symbols}
         self.count = _counts(record)
         self.quoted = clashing(record)

@@ -11,7 +11,7 @@ from fractions import Fraction
 from functools import partial
 from unicodedata import normalize
 
-from ..language.reserved import by_letter, carried_entries
+from ..language.reserved import advected_entries, by_letter
 from ..language.show import show
 from ..language.tree import Tree, add, coefficient, mul, names, neg, nodes, terms
 from ..record.record import ANY_GROUP, Derivation, Equation, Step
@@ -132,7 +132,7 @@ def letters(d: Derivation, equations: Sequence[Equation], language: Language) ->
     equated = {x[1] for x in (e.lhs for e in equations) if isinstance(x, tuple) and x[0] == "at"}
     plain = {x for e in equations for side in _sides(e) for x in _plain(side)}
     numbers = {x[1] for x in there if isinstance(x, tuple) and x[0] == "par"}
-    plain |= {"Γ"} if numbers & {*carried_entries(d.problem)} else set()
+    plain |= {"Γ"} if numbers & {*advected_entries(d.problem)} else set()
     told = {y for x in _told(equations_of_motion(d)) for y in names(x)}
     for s in d.symbols:
         family = s.name in families and not (s.name in equated and d.definition(s.name))

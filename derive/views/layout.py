@@ -15,7 +15,7 @@ from typing import Any
 
 from ..algebra.families import group
 from ..algebra.groups import Group
-from ..language.reserved import carried_entries
+from ..language.reserved import advected_entries
 from ..language.show import in_sentence, show
 from ..language.tree import Tree, add, mul
 from ..record.record import Derivation, Equation, Step, Symbol
@@ -97,7 +97,7 @@ def as_read(d: Derivation) -> Derivation:
 def _carried(problem: Mapping[str, Any]) -> dict[Tree, Tree]:
     """Each entry of Γ, and its rate → by the name that the problem has for it."""
     found: dict[Tree, Tree] = {}
-    for i, name in enumerate(carried_entries(problem), 1):
+    for i, name in enumerate(advected_entries(problem), 1):
         letter, _, index = name.rpartition("_")
         found["entry", "Γ", i] = ("par", name)
         dotted = ("par", f"{letter}{OVERDOT}_{index}")

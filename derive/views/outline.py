@@ -8,7 +8,7 @@ from itertools import groupby
 from pathlib import Path
 from typing import Any
 
-from ..language.reserved import carried_entries
+from ..language.reserved import advected_entries
 from ..language.show import in_sentence
 from ..language.tree import Tree, names, nodes
 from ..language.tree import names as names_in
@@ -73,7 +73,7 @@ def named_numbers(d: Derivation) -> list[str]:
     and what inputs give, as far as equations have them."""
     sides = (x for s in d.steps if s.driven for e in s.equations for x in (e.lhs, e.rhs))
     given = (x[1] for t in sides for x in nodes(t) if isinstance(x, tuple) and x[0] == "par")
-    stated = (*(d.problem.get("parameters") or ()), *carried_entries(d.problem))
+    stated = (*(d.problem.get("parameters") or ()), *advected_entries(d.problem))
     return [*dict.fromkeys(map(str, (*stated, *given)))]
 
 

@@ -9,7 +9,7 @@ from typing import Any, NoReturn
 
 from ...algebra.groups import Group, constant_entries
 from ...language.limits import Refused
-from ...language.reserved import carried_entries, suffixed
+from ...language.reserved import advected_entries, suffixed
 from ...language.tree import Tree, nodes, replaced
 from ...language.values import arithmetic
 from ...problem.entries_on_orbit import with_constant_entries
@@ -87,7 +87,7 @@ def _without_energy(problem: Problem) -> tuple[LiePoisson, list[Place]]:
     momenta = [("at", "Π", a) for a in range(1, group.dimension + 1)]
     letter = "A" if problem.advected is None else "Γ"
     variables = (*momenta, *(("entry", letter, *(i + 1 for i in x)) for x in entries))
-    own = carried_entries({"advected": [*map(vars, problem.advected or ())]})
+    own = advected_entries({"advected": [*map(vars, problem.advected or ())]})
     on_algebra = zip(own, range(1, carried + 1), strict=True)
     named: dict[Tree, str] = {("entry", "Γ", i): name for name, i in on_algebra}
     names = tuple(named.get(x, coordinate(x)) for x in variables)
