@@ -203,8 +203,11 @@ class EnclosedQuestion(Question):
             x, u = self.at(box)
             self.require_slopes(x, u)
             matrix = self.linear(x, u)
-        except (UnknownSignError, ZeroDivisionError) as error:
-            raise NoTrimError(f"{why}; and within bounds {error}") from None
+        except (UnknownSignError, ZeroDivisionError):
+            raise NoTrimError(
+                f"{why}; and within bounds a root or a divisor in what acts may be 0, as a speed is "
+                "of what stands still"
+            ) from None
         velocity = x[-self.d :]
         if moving := any(velocity):
             random = Random(1)
