@@ -205,8 +205,8 @@ class EnclosedQuestion(Question):
             matrix = self.linear(x, u)
         except (UnknownSignError, ZeroDivisionError):
             raise NoTrimError(
-                f"{why}; and within bounds a root or a divisor in what acts may be 0, as a speed is "
-                "of what stands still"
+                f"{why}; and within bounds a root or a divisor in what acts may be 0, as the speed "
+                "of what stands still is"
             ) from None
         velocity = x[-self.d :]
         if moving := any(velocity):
