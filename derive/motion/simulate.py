@@ -225,7 +225,8 @@ def _without_inertia(problem: Problem, begin: Start, duration: float) -> float:
     """The first time at which the metric of moments that are functions of the time is not positive;
     infinite for none, and where masses of the state are in it."""
     body, known = problem.body, {**defaults(problem.parameters), **begin.parameters}
-    trees = body.moments().trees() if body is not None else ()
+    each = by_block(body).values() if body is not None else ()
+    trees = [y for x in each for y in x.moments().trees()]
     used = {x for y in trees for x in names(y)}
     if body is None or not any("t" in nodes(x) for x in trees) or {*problem.stored} & used:
         return math.inf

@@ -194,6 +194,10 @@ def _before(node: ast.stmt, alone: Mapping[int, str], after: Mapping[int, str]) 
     return found + ([after[node.lineno]] if node.lineno in after else [])
 
 
+STRIDES = ("DOWN", "DOWN_PARAMETERS", "ALONG")
+"""How far the next row of a matrix is in memory, and the next column: one of them is 1."""
+
+
 class _Known(ast.NodeTransformer):
     """Puts what is known when a file is written into a tree."""
 
@@ -252,13 +256,15 @@ class _Known(ast.NodeTransformer):
         return x
 
     def visit_BinOp(self, x: ast.BinOp) -> ast.expr:
-        """The sum of whole numbers that are known; a number that is taken once."""
+        """The sum of whole numbers that are known; a place times a stride that is 1."""
+        match x:
+            case ast.BinOp(left, ast.Mult(), ast.Name(id)) if id in STRIDES:
+                if self.given.get(id) == 1:
+                    return self.visit(left)  # type: ignore[no-any-return]
         self.generic_visit(x)
         match x:
             case ast.BinOp(ast.Constant(value=int(a)), ast.Add(), ast.Constant(value=int(b))):
                 return ast.Constant(a + b)
-            case ast.BinOp(left, ast.Mult(), ast.Constant(value=int(1))):
-                return left
         return x
 
     def visit_Call(self, x: ast.Call) -> ast.expr:

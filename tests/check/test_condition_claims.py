@@ -173,7 +173,8 @@ OPEN = {
         "motion.discrete balance.discrete multiplier.polynomial absorbed.pressure "
         "energy_kept.absorbed circulation.advected level_curve.kept kelvin.advected "
         "extremal.lifts second_order.any_lagrangian second_order.velocity_signed motions.complete "
-        "log_linear.both separation.condition poisson_tensor.group momenta.torus"
+        "log_linear.both separation.condition poisson_tensor.group momenta.torus forcing.fluid "
+        "circulation.force pressure_equation.force"
     ),
     "that nothing is said": "family.roots_large family.open virial.needed",
     "what the step supposes as an equation": "principal.axes",

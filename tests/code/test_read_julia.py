@@ -123,7 +123,7 @@ WRONG_STEPS = {
     "a field that there is not": ("m.made += 1", "m.mode += 1"),
     "a field of another type": ("m.made += 1", "m.made += 0.5"),
     "an array of other numbers of indices": ("zeros(Float64, 2, 3)", "zeros(Float64, 3)"),
-    "a number of indices": ("m.x[2, i]", "m.x[i]"),
+    "a number of indices": ("m.x[2, i]", "m.x[2, i, 1]"),
     "an index beyond that of columns": ("TABLE[i, 2]", "TABLE[i, 3]"),
     "a copy of another length": ("view(m.x, :, 2)", "view(m.x, 1, :)"),
     "a view beyond": ("view(m.x, :, 2)", "view(m.x, :, 4)"),
