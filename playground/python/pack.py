@@ -23,6 +23,7 @@ NEEDED = (
     "derive/templates/html/",
     "derive/problems/",
     "derive/record/prose/",
+    "derive/schema/",
     "derive/views/",
     "amendments.pickle",
 )
