@@ -198,7 +198,9 @@ SOURCES = {
     "heavy": lambda: derive(problem_of(HEAVY)).families(),
 }
 RARE = {"family.origin", "family.on_the_leaf_always", "family.unstable_large"}
-"""Which no problem makes that is searched within seconds."""
+RARE |= {"family.stable_beyond", "family.stable_beyond_always"}
+"""Which no problem makes that is searched within seconds; tests/equilibria/test_stability.py has
+some."""
 ALWAYS = {f"family.{x}" for x in ("stable_always", "indefinite", "unstable_always", "imaginary")}
 """Verdicts whatever the letters, each the opposite of another one."""
 
