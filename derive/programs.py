@@ -125,7 +125,7 @@ def trim(
     refused; ``along``: a velocity in space of which g sees its own."""
     from .code.options import Options
     from .code.program import LoweringError
-    from .search.equilibria.trim import told
+    from .search.equilibria.trim_steps import told
     from .search.equilibria.trimmed import trimmed
     from .walk.chapter import Chapter
     from .walk.spine.lagrangian import completed

@@ -25,7 +25,7 @@ from ..motion.emitted_code import VECTORS, parts
 from ..motion.simulate import run
 from ..motion.trajectory import Method
 from ..pipeline import discrete, walk
-from ..problem.fields import state_names
+from ..problem.fields import entry_places, state_names
 from ..problem.problem import Problem
 from ..problem.toml import load
 from ..programs import motion_of, trim
@@ -179,11 +179,11 @@ def _turns(record: Derivation, times: Any, rates: Sequence[Any]) -> float:
 def _moved(problem: Problem, start: Sequence[tuple[str, float]]) -> Iterator[tuple[str, float]]:
     """The numbers of a start other than those of the identity at rest, by their letters."""
     known = state_names(problem.group) if problem.group else {}
+    places = entry_places(problem.group) if problem.group else {}
     for name, value in start:
-        t = known.get(name)
-        place = t[-2:] if isinstance(t, tuple) and t[0] == "entry" and t[1] == "A" else (0, 1)
-        if value != (place[0] == place[1]):
-            yield letter_of(name) if t is None else show(t), value
+        i, j = places.get(name, (0, 1))
+        if value != (i == j):
+            yield show(known[name]) if name in known else letter_of(name), value
 
 
 def about(body: OwnBody, chapters: list[lecture_text.Chapter]) -> list[lecture_text.Chapter]:

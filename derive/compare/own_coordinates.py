@@ -15,7 +15,7 @@ import numpy as np
 from ..algebra.factor_charts import CoordinateBlock, factor_charts
 from ..algebra.groups import Group
 from ..language.rational import identity
-from ..problem.fields import is_entry, state_names
+from ..problem.fields import entry_places
 
 
 @dataclass(frozen=True)
@@ -65,8 +65,7 @@ def own_coordinates(
 ) -> dict[str, Coordinates]:
     """The coordinates of a group by their names in the code of ``--attitude angle``, of those
     factors that have some, beside T; ``velocity``: the coordinates of ζ that our state holds."""
-    entries = {x: t for x, t in state_names(group).items() if x in state and isinstance(t, tuple)}
-    places = {(t[2] - 1, t[3] - 1): x for x, t in entries.items() if is_entry(t)}
+    places = {place: x for x, place in entry_places(group).items() if x in state}
     found: dict[str, Coordinates] = {}
     if len(velocity) < group.dimension:
         return found

@@ -19,7 +19,7 @@ from ..language.limits import Refused
 from ..language.rational import Matrix
 from ..language.tree import Tree
 from ..language.values import approximate
-from ..problem.fields import called_here, state_names
+from ..problem.fields import called_here, element, entry_places
 from ..problem.motion_tables import named
 from ..problem.problem import Problem
 from ..record.as_json import decode
@@ -230,20 +230,14 @@ def _at(problem: Problem, program: Program, exponent: Sequence[float]) -> dict[s
     span = range(len(basis[0]))
     terms = [*zip(exponent, basis, strict=False)]
     g = exponential([[sum(a * float(E[i][j]) for a, E in terms) for j in span] for i in span])
-    places, listed = state_names(group), program.matrix_state or program.state
-    own = {x: t for x in listed if isinstance(t := places.get(x), tuple) and t[1] == "A"}
-    return {name: g[t[2] - 1][t[3] - 1] for name, t in own.items()}
+    listed = program.matrix_state or program.state
+    return {x: g[i][j] for x, (i, j) in entry_places(group).items() if x in listed}
 
 
 def _by_charts(program: Program, problem: Problem, found: Mapping[str, float]) -> dict[str, float]:
     """Name → number of what tells the factors that have charts, by the entries of g; an angle
     between −π and π, but where a shift tells how often it went round."""
-    span = range(problem.own_group.size)
-    rows = [[float(i == j) for j in span] for i in span]
-    for name, t in state_names(problem.own_group).items():
-        if name in found and isinstance(t, tuple) and t[1] == "A":
-            rows[t[2] - 1][t[3] - 1] = found[name]
-    g = tuple(map(tuple, rows))
+    g = tuple(tuple(map(float, row)) for row in element(problem.own_group, found))
     numbers: dict[str, float] = {}
     for chart in program.charts:
         if chart.kind == QUATERNION:

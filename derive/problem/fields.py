@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import re
 from collections.abc import Collection, Iterable, Mapping, Sequence
+from functools import cache
 from typing import Any
 
 from ..algebra.groups import Group, names_by_block
 from ..language.limits import TABLES
+from ..language.rational import Matrix, identity, matrix
 from ..language.reserved import by_letter, suffixed
 from ..language.tree import Tree, add, mul, neg, plain
 from ..schema.kind import SECTIONS, Advected
@@ -140,6 +142,21 @@ def out_of_place(problem: Problem, name: str, where: str, of_state: Sequence[str
 def is_entry(t: Tree) -> bool:
     """Is it an entry of g?"""
     return isinstance(t, tuple) and t[:2] == ("entry", "A")
+
+
+@cache
+def entry_places(group: Group) -> Mapping[str, tuple[int, int]]:
+    """The names of the entries of g in the state → their row and column, from 0."""
+    named = state_names(group).items()
+    return {x: (t[2] - 1, t[3] - 1) for x, t in named if isinstance(t, tuple) and is_entry(t)}
+
+
+def element(group: Group, numbers: Mapping[str, Any]) -> Matrix:
+    """g, a matrix of the group's size, of numbers by name; what these do not tell is as in 1."""
+    g = [[*row] for row in identity(group.size)]
+    for name, (i, j) in entry_places(group).items():
+        g[i][j] = numbers.get(name, g[i][j])
+    return matrix(g)
 
 
 def coordinates(group: Group) -> list[Tree]:

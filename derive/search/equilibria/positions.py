@@ -2,24 +2,23 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Sequence
 from fractions import Fraction
+from math import comb
 from typing import Any
 
+from ...algebra.groups import Group
 from ...language.rational import Matrix
 from ...language.values import approximate
 from ...record.sentence import Prose
 from ...walk.chapter import Draft
 from .equilibrium_points import About, Expansion
 
-ROTATIONS = re.compile(r"S([OE])\((\d+)\)")
-
 
 def position(about: About, draft: Draft, *, near: bool = False) -> Prose:
     """Is the potential energy the least or the greatest at a point, or where that is ``near``, and
     which axes of the bodies that turn point along axes of space there?"""
-    blocks = _turning(draft.chapter.scope)
+    blocks = _turning(about.system.group)
     rows: dict[tuple[range, int], dict[int, int]] = {}
     for k, x in enumerate(about.system.variables):
         for own in blocks:
@@ -54,10 +53,10 @@ def _axis(
     return draft.claim(f"position.{kind}", **places, **several)
 
 
-def axes_that_stay(g: Matrix, Z: Matrix, draft: Draft) -> Prose:
-    """Of bodies that are turned, by a matrix g, which of their axes point along axes of space, and
-    go on to at the velocity Z."""
-    blocks, found = _turning(draft.chapter.scope), Prose()
+def axes_that_stay(g: Matrix, Z: Matrix, group: Group, draft: Draft) -> Prose:
+    """Of bodies that are turned, by a matrix g of a group, which of their axes point along axes of
+    space, and go on to at the velocity Z."""
+    blocks, found = _turning(group), Prose()
     for own in blocks:
         places = [(i, j) for i in own for j in own]
         turned = any(g[i - 1][j - 1] != int(i == j) for i, j in places)
@@ -86,13 +85,11 @@ def _along(about: About, h: Expansion, entries: Sequence[int], near: bool) -> in
     return 1 if number > 0 else -1
 
 
-def _turning(scope: str) -> list[range]:
-    """The rows of A, from 1, of each body that a group, or a product, turns; nothing where a factor
-    is another group."""
-    blocks, first = [], 1
-    for found in map(ROTATIONS.fullmatch, re.split(" [x×] ", scope)):
-        if not found:
-            return []
-        blocks.append(range(first, first + int(found[2])))
-        first = blocks[-1].stop + (found[1] == "E")
-    return blocks
+def _turning(group: Group) -> list[range]:
+    """The rows of A, from 1, of each body that a group, or a product, turns by all rotations;
+    nothing where a factor does not."""
+    whole = all(
+        len(x.linear_basis) == comb(x.n, 2) > 0 and "orthogonal" in x.relations
+        for _, x in group.places
+    )
+    return [range(first + 1, first + x.n + 1) for first, x in group.places if whole]

@@ -325,23 +325,17 @@ AT_ZERO = {"cos": 1, "sin": 0, "tan": 0, "exp": 1, "sinh": 0, "cosh": 1, "tanh":
 """The values of functions at 0, which are exact, as of an angle that is a parameter."""
 
 
-def function_with_corner(corner: int) -> Callable[[str, Any], Any]:
-    """The functions of exact numbers, roots and absolute values, ``corner`` where these are 0; and
-    the tests for 0 of constants."""
-
-    def call(name: str, x: Any) -> Any:
-        if name == "none":
-            return Fraction(int(x == 0))
-        if name not in ("sqrt", "abs"):
-            if x != 0 or name not in AT_ZERO:
-                raise NotExactError(f"{name} is in the equations")
-            return Fraction(AT_ZERO[name])
-        if x == 0:
-            return Fraction(corner)
+def _of_exact(name: str, x: Any) -> Any:
+    """The functions of exact numbers, roots and absolute values, and the tests for 0 of
+    constants."""
+    if name == "none":
+        return Fraction(int(x == 0))
+    if name in ("sqrt", "abs"):
         return root(x) if name == "sqrt" else x if x > 0 else -x
+    if x != 0 or name not in AT_ZERO:
+        raise NotExactError(f"{name} is in the equations")
+    return Fraction(AT_ZERO[name])
 
-    return call
 
-
-EXACTLY = Arithmetic(lambda x: x, function_with_corner(0))
+EXACTLY = Arithmetic(lambda x: x, _of_exact)
 """In fractions, and in numbers with one square root."""

@@ -1,4 +1,4 @@
-"""What a trim is, an equilibrium under inputs, exact or enclosed; and the step that tells it.
+"""What a trim is, an equilibrium under inputs, exact or enclosed.
 
 The state and the inputs of which a trim is asked, and the emitted equations in any numbers.
 """
@@ -6,8 +6,8 @@ The state and the inputs of which a trim is asked, and the emitted equations in 
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Collection, Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
 from random import Random
@@ -19,16 +19,9 @@ from ...language import rational as q
 from ...language.intervals import characteristic, signs_of_real_parts
 from ...language.rational import Matrix
 from ...language.reserved import suffixed
-from ...language.tree import Tree
-from ...language.univariate import Number, grows, polynomial_tree, routh, tree
-from ...problem.fields import called_here, entries, state_names
+from ...language.univariate import Number, grows, routh
+from ...problem.fields import called_here, element, entries, entry_places
 from ...problem.problem import Problem
-from ...record.record import Step
-from ...record.sentence import Prose
-from ...walk.chapter import Chapter, Draft
-from .cayley_chart import chart_slopes, conjugated, turned
-from .equilibrium_steps import decimal, scientific
-from .positions import axes_that_stay
 from .stability import eigenvalues, polynomial
 from .steady_velocity import EXACTLY, FLOATS, SAME, Arithmetic, NoTrimError, Rates
 
@@ -40,9 +33,12 @@ ROUNDING = 1e-9
 
 class Question:
     """The state and the inputs of which something is asked, and what is free in them; ``numbers``:
-    those in which the equations are evaluated."""
+    those in which the equations are evaluated; ``little``: what is put in the place of a root that
+    is 0, of which a change ``of_first_order`` is seen."""
 
     numbers: Arithmetic
+    little: Fraction
+    of_first_order: Callable[[Any], bool]
 
     def __init__(
         self,
@@ -56,7 +52,7 @@ class Question:
         self.group: Group = problem.own_group.in_user_basis
         self.program, self.d = program, program.dimension
         self.right = program.variation.startswith("eta")
-        self.places = entries_of(problem.own_group)
+        self.places = entry_places(self.group)
         self.require()
         velocity = program.state[-self.d :]
         self.turns = {suffixed("eta", a + 1): a for a in range(self.d)}
@@ -245,16 +241,31 @@ class Question:
             others = "" if len(moved) == self.d else ", all other rates of the velocity are 0"
             raise NoTrimError(f"no trim: {', '.join(moved)}{others}; no input is free")
 
+    def require_slopes(self, x: Sequence[Any], u: Sequence[Any]) -> bool:
+        """Is a root 0 in a state?  ``NoTrimError`` where the rates change to the first order with
+        a little in its place: they have no derivative then."""
+        met: list[str] = []
+
+        def call(name: str, x: Any) -> Any:
+            if x != 0 or name not in ("sqrt", "abs"):
+                return self.numbers.call(name, x)
+            met.append(name)
+            return self.numbers.of(self.little)
+
+        bent = self.evaluated("rhs", x, u, replace(self.numbers, call=call))
+        changes = (z - y for y, z in zip(self.evaluated("rhs", x, u), bent, strict=True))
+        for name, change in [*zip(self.program.state, changes, strict=True)][-self.d :]:
+            if self.of_first_order(change):
+                raise NoTrimError(
+                    f"d{name}/dt has no derivative there: a root is 0, and not a factor of what is"
+                )
+        return bool(met)
+
     # -- the group ---------------------------------------------------------------------------------
 
     def element(self, x: Sequence[Any] | None = None) -> Matrix:
-        """g, a matrix of the group's size, of a state."""
-        g = [[*row] for row in q.identity(self.group.size)]
-        for name, value in zip(self.program.state, x or self.x, strict=True):
-            if name in self.places:
-                i, j = self.places[name]
-                g[i][j] = value
-        return q.matrix(g)
+        """g of a state."""
+        return element(self.group, dict(zip(self.program.state, x or self.x, strict=True)))
 
     def require_element(self) -> None:
         """``NoTrimError`` where g is off the group by its relations, or these are not all."""
@@ -288,12 +299,6 @@ class Question:
                     f"no steady motion is proved: d{name}/dt is 0 now, but what acts may be "
                     "other where g goes"
                 )
-
-
-def entries_of(group: Group) -> dict[str, tuple[int, int]]:
-    """The names of the entries of g in the state → their places in it, from 0."""
-    named = state_names(group).items()
-    return {x: (t[2] - 1, t[3] - 1) for x, t in named if isinstance(t, tuple) and t[1] == "A"}
 
 
 @dataclass(frozen=True)
@@ -357,98 +362,50 @@ class EnclosedTrim(Trim):
         return {"negative": "stable", "positive": "unstable", "unknown": "open"}[found]
 
 
-def told(trim: Trim, group: Group, steps: Iterable[Step], c: Chapter) -> Step:
-    """The equations of motion once more, and what vanishes in them; ``steps``: of the record."""
-    by_label = {s.label: s for s in steps}
-    motion = next(s for x in ("explicit", "motion") if (s := by_label.get(c.label(x))))
-    draft = (c.with_input() if motion.driven else c).draft("trim", "trim", motion)
-    if isinstance(trim, EnclosedTrim):
-        return draft.step(motion.equations, _says_enclosed(trim, group, draft))
-    return draft.step(motion.equations, _says_exact(trim, group, draft))
+# -- elements near one by Cayley's transform C(η) = (1 − ½η)⁻¹(1 + ½η), rational in η --------------
 
 
-def _says_exact(trim: Trim, group: Group, draft: Draft) -> Prose:
-    point = _equations(_rows(trim.state, trim, group, ()))
-    g: list[list[Any]] = [[*row] for row in q.identity(group.size)]
-    for name, (i, j) in entries_of(group).items():
-        g[i][j] = trim.state.get(name, g[i][j])
-    Z = group.in_user_basis.hat([*_velocity(trim, group).values()])
-    prose = axes_that_stay(q.matrix(g), Z, draft)
-    prose += draft.claim("trim.rest" if trim.resting else "trim.steady", point=point)
-    if trim.corner:
-        prose += draft.claim("trim.corner")
-    if trim.sought:
-        names = (*(_named(x, group, trim) for x in (*trim.sought, *trim.free)),)
-        turns = any(x not in trim.state for x in trim.sought)
-        kind, more = "trim.isolated_with_turns" if turns else "trim.isolated", {}
-        if turns and trim.along:
-            kind, more = "trim.isolated_along", {"along": _along(trim, group)}
-        prose += draft.claim(kind, numbers=("row", *names), **more)
-    elif trim.free:
-        inputs: Tree = ("row", *(("par", x) for x in trim.free))
-        prose += draft.claim("trim.unique", inputs=inputs)
-    polynomial = polynomial_tree(trim.characteristic, "λ")
-    return prose + draft.claim(f"trim.{trim.verdict}", polynomial=polynomial)
+def turned(group: Group, g: Matrix, eta: Sequence[Any], *, right: bool) -> Matrix:
+    """g C(η), ``right``: C(η) g, for the d coordinates η; an element where Cayley's transforms are,
+    as of orthogonal groups and of those with translations."""
+    C = _cayley(group, eta)
+    return q.times(C, g) if right else q.times(g, C)
 
 
-def _says_enclosed(trim: EnclosedTrim, group: Group, draft: Draft) -> Prose:
-    near = _equations((_named(x, group, trim), y) for x, y in trim.near.items())
-    point, radius = _equations(_rows(trim.start, trim, group, trim.near)), scientific(trim.radius)
-    kind, more = "trim.near_rest" if trim.resting else "trim.near_steady", {}
-    if trim.along:
-        kind, more = "trim.near_along", {"along": _along(trim, group)}
-    prose = draft.claim(kind, near=near, point=point, radius=radius, **more)
-    told = {x: decimal(y, trim.radius) for x, y in trim.state.items()}
-    if trim.changed:
-        entries = _equations((_named(x, group, trim), told[x]) for x in trim.changed)
-        side = "trim.near_turned_on_the_left" if trim.right else "trim.near_turned"
-        prose += draft.claim(side, entries=entries, radius=radius)
-    if trim.along:
-        moving = [(_named(x, group, trim), told[x]) for x in _velocity(trim, group) if told[x]]
-        prose += draft.claim("trim.near_velocity", entries=_equations(moving), radius=radius)
-    return prose + draft.claim(f"trim.near_{trim.verdict}")
+def conjugated(group: Group, z: Matrix, eta: Sequence[Any], *, right: bool) -> Matrix:
+    """C⁻¹zC, ``right``: CzC⁻¹: what is z seen from g is this from g turned."""
+    first, last = (_cayley(group, x) for x in (eta, [-x for x in eta]))
+    return q.times(q.times(first, z), last) if right else q.times(q.times(last, z), first)
 
 
-def _velocity(trim: Trim, group: Group) -> dict[str, Number]:
-    return dict([*trim.state.items()][-group.dimension :])
+def chart_slopes(group: Group, eta: Sequence[Any], *, right: bool) -> Matrix:
+    """Row a: the coordinates of C⁻¹∂C/∂η_a, ``right``: of ∂C/∂η_a C⁻¹."""
+    less, more = _halves(group, eta)
+    back, one = _inverted(less), q.identity(group.size)
+    C = q.times(back, more)
+    undone, rows = _inverted(C), []
+    for E in group.basis:
+        dC = q.times(back, q.times(q.scaled(Fraction(1, 2), E), q.plus(C, one)))
+        rows.append(group.nearest(q.times(dC, undone) if right else q.times(undone, dC)))
+    return tuple(rows)
 
 
-def _along(trim: Trim, group: Group) -> Tree:
-    return _equations((_named(x, group, trim), y) for x, y in trim.along.items())
+def _cayley(group: Group, eta: Sequence[Any]) -> Matrix:
+    less, more = _halves(group, eta)
+    return q.times(_inverted(less), more)
 
 
-def _equations(rows: Iterable[tuple[Tree, Number]]) -> Tree:
-    return ("matrix", *(("row", x, tree(y)) for x, y in rows))
+def _inverted(a: Matrix) -> Matrix:
+    """The inverse; ``NoTrimError`` where Cayley's transform has none, as those of SL(n) may."""
+    if (found := q.inverse(a)) is None:
+        raise NoTrimError(
+            "no trim is found: where Newton's method leads no element is Cayley's transform of a "
+            "turn; give numbers near it by --at for g, or free others"
+        )
+    return found
 
 
-def _rows(
-    state: Numbers, trim: Trim, group: Group, near: Collection[str]
-) -> list[tuple[Tree, Number]]:
-    """The exact numbers that are not those of g = 1, and 0, and all inputs that were found; where
-    there are none, those of the velocity, else the first of g."""
-    places = entries_of(group)
-    found: list[tuple[Tree, Number]] = []
-    for name, x in state.items():
-        i, j = places.get(name, (0, 1))
-        if x != int(i == j) and name not in near:
-            found.append((_named(name, group, trim), x))
-    inputs = {n: u for n, u in trim.inputs.items() if n not in near}
-    found += [(("par", n), u) for n, u in inputs.items() if u or n in trim.free]
-    still = [x for x in _velocity(trim, group) if x not in near] or [*state][:1]
-    return found or [(_named(x, group, trim), state[x]) for x in still]
-
-
-def _named(name: str, group: Group, trim: Trim) -> Tree:
-    """A number of the state as a tree: an entry of A, T, ζ or w; of ξ for a turn of g; an input."""
-    places, velocity = entries_of(group), [*_velocity(trim, group)]
-    if name in trim.inputs:
-        return ("par", name)
-    if name in places:
-        i, j = places[name]
-        return ("entry", "T", i + 1) if name.startswith("T_") else ("entry", "A", i + 1, j + 1)
-    if name not in velocity:
-        return ("entry", "ξ", int(name.removeprefix("eta_")))
-    a = velocity.index(name) + 1
-    if name.startswith("w"):
-        return ("entry", "w", a - len(velocity) + group.n)
-    return ("entry", "ζ", a)
+def _halves(group: Group, eta: Sequence[Any]) -> tuple[Matrix, Matrix]:
+    """1 − ½η and 1 + ½η."""
+    one, half = q.identity(group.size), q.scaled(Fraction(1, 2), group.hat(eta))
+    return q.plus(one, q.scaled(Fraction(-1), half)), q.plus(one, half)

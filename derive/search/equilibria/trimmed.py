@@ -19,7 +19,6 @@ floats; the checker is exact.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
 from fractions import Fraction
 from random import Random
 from typing import Any
@@ -44,14 +43,12 @@ from .steady_velocity import (
     approximately,
     describe,
     exact,
-    function_with_corner,
     solutions,
 )
 from .trim import Bounds, EnclosedTrim, Question, Trim
 
 EXACT = 2**40
 """A number of a program with a larger power of two below is one that has no fraction, as π."""
-NO_SLOPE = "d{}/dt has no derivative there: a root is 0, and not a factor of what is"
 NO_PIVOT = 1e-12
 """A determinant or a difference in floats that is smaller, beside the numbers, is 0."""
 PRIME = 2**61 - 1
@@ -61,7 +58,7 @@ PRIME = 2**61 - 1
 class ExactQuestion(Question):
     """The same, in fractions and numbers of one square root."""
 
-    numbers = EXACTLY
+    numbers, little = EXACTLY, Fraction(PRIME)
 
     def answered(self) -> Trim:
         """The trim; ``NoTrimError`` where there is none, or there are many."""
@@ -86,7 +83,7 @@ class ExactQuestion(Question):
             self.sought,
             self.linear(self.x, u),
             not moving,
-            self.has_corner(u),
+            self.require_slopes(self.x, u),
             self.along,
         )
 
@@ -118,24 +115,12 @@ class ExactQuestion(Question):
         for name in self.free:  # they are found once more, linearly
             self.u[self.program.inputs.index(name)] = Fraction(0)
 
-    def has_corner(self, u: Sequence[Number]) -> bool:
-        """Is a root 0 in the state?  ``NoTrimError`` where the rates have no derivative then."""
-        met: list[str] = []
-
-        def call(name: str, x: Any) -> Any:
-            if x == 0 and name in ("sqrt", "abs"):
-                met.append(name)
-            return function_with_corner(PRIME)(name, x)
-
-        bending = replace(EXACTLY, call=call)
-        held, bent = (self.evaluated("rhs", self.x, u, f) for f in (EXACTLY, bending))
-        triples = zip(self.program.state, held, bent, strict=True)
-        for name, x, y in [*triples][-self.d :]:
-            by = (y - x) / PRIME
-            parts = (by.a, by.b) if isinstance(by, Quadratic) else (by,)
-            if any(part.numerator % PRIME for part in parts):
-                raise NoTrimError(NO_SLOPE.format(name))
-        return bool(met)
+    @staticmethod
+    def of_first_order(change: Number) -> bool:
+        """Is a change with p no multiple of p²?"""
+        by = change / PRIME
+        parts = (by.a, by.b) if isinstance(by, Quadratic) else (by,)
+        return any(part.numerator % PRIME for part in parts)
 
     def solved(self, columns: Matrix, held: Sequence[Number]) -> dict[str, Number]:
         """The free inputs by name, of which each moves ζ̇ by a row of ``columns``."""
@@ -180,7 +165,7 @@ Box = list[Interval]
 class EnclosedQuestion(Question):
     """A question whose answer is within bounds."""
 
-    numbers = INTERVALS
+    numbers, little = INTERVALS, LITTLE
 
     def answered(self, why: str) -> EnclosedTrim:
         """The trim; ``NoTrimError`` where none is proved, with ``why`` it is not exact."""
@@ -232,19 +217,10 @@ class EnclosedQuestion(Question):
             right=self.right,
         )
 
-    def require_slopes(self, x: Sequence[Any], u: Sequence[Any]) -> None:
-        """``NoTrimError`` where the rates change with a little in the place of a root that is 0."""
-
-        def call(name: str, x: Any) -> Any:
-            return Interval.of(LITTLE) if x == 0 and name in ("sqrt", "abs") else function(name, x)
-
-        held, bent = (
-            self.evaluated("rhs", x, u, f) for f in (INTERVALS, replace(INTERVALS, call=call))
-        )
-        for name, y, z in [*zip(self.program.state, held, bent, strict=True)][-self.d :]:
-            # of its square the rates change by less
-            if (Interval.of(z) - y).size > LITTLE / 2**40:
-                raise NoTrimError(NO_SLOPE.format(name))
+    @staticmethod
+    def of_first_order(change: Any) -> bool:
+        """Is it beside a little more than what its square changes?"""
+        return Interval.of(change).size > LITTLE / 2**40
 
     def enclosed(self, f: Rates, near: Sequence[Fraction], radius: Fraction) -> Box:
         """Narrow bounds of the one solution within a radius; ``NoTrimError`` where that is not

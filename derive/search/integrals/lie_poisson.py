@@ -10,6 +10,7 @@ from math import lcm
 from typing import Any
 
 from ...algebra.exact_kernel import kernel, pivots
+from ...algebra.groups import Group
 from ...language.tree import Tree, add, coefficient, mul
 from ...language.values import value
 
@@ -48,7 +49,7 @@ class LiePoisson:
     ``variables``: the names x_1 …, as trees.  ``brackets``: {x_i, x_j} for i < j from 0, those
     that are not 0.  ``hamiltonian``: the exponents of x → the coefficient, a tree of numbers and
     ``parameters``.  ``momenta``: so many of the variables, the first ones, count as of degree 1.
-    ``names``: those of the variables at the command line.
+    ``names``: those of the variables at the command line; ``group``: whose brackets they are.
     """
 
     variables: tuple[Tree, ...]
@@ -57,6 +58,7 @@ class LiePoisson:
     parameters: tuple[str, ...]
     momenta: int
     names: tuple[str, ...]
+    group: Group
 
     def bracket(self, i: int, j: int) -> Linear:
         """The linear form {x_i, x_j}."""

@@ -91,7 +91,7 @@ def _without_energy(problem: Problem) -> tuple[LiePoisson, list[Place]]:
     on_algebra = zip(own, range(1, carried + 1), strict=True)
     named: dict[Tree, str] = {("entry", "Γ", i): name for name, i in on_algebra}
     names = tuple(named.get(x, coordinate(x)) for x in variables)
-    return LiePoisson(variables, brackets, {}, (), group.dimension, names), entries
+    return LiePoisson(variables, brackets, {}, (), group.dimension, names, group), entries
 
 
 def coordinate(x: Tree) -> str:

@@ -10,7 +10,7 @@ from typing import Any
 
 from ...algebra.groups import Group
 from ...language.reserved import waves
-from ...problem.fields import state_names
+from ...problem.fields import entry_places
 from ..figure.drawn_body import UNITS, ExpressionValues, moments_of
 from ..figure.scene import along, shifts, turns
 from ..figure.shapes import stretches
@@ -62,9 +62,8 @@ def moving_body(
 
 def element(group: Group | None, state: Sequence[str]) -> list[list[int]]:
     """The entries of the element of the group in the state: row, column, place, from 0."""
-    places = state_names(group) if group else {}
-    found = ((k, places.get(name)) for k, name in enumerate(state))
-    return [[t[2] - 1, t[3] - 1, k] for k, t in found if isinstance(t, tuple) and t[1] == "A"]
+    places = entry_places(group) if group else {}
+    return [[*places[name], k] for k, name in enumerate(state) if name in places]
 
 
 def _turning(group: Group, state: Sequence[str], at: set[int]) -> list[int]:
