@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from itertools import chain, product
@@ -16,6 +15,7 @@ from ..code.naming import own_prefix
 from ..code.program import Program
 from ..language.limits import Refused
 from ..motion.first_numbers import first_numbers
+from ..problem.fields import known_in_lagrangian
 from ..problem.problem import Problem
 from .balance import Balance, Made
 from .faults import Explanation, best, explained
@@ -39,8 +39,6 @@ from .user_states import (
 )
 from .users_code import Array, Call, CompareError, values
 
-VELOCITY = re.compile(r"(zeta|w)\d*_")
-"""How the names of velocities begin."""
 AGREES = 1e-9
 """The largest difference, relative to the size of the numbers, of what agrees."""
 STATES, MOST = 24, 10_000
@@ -173,12 +171,11 @@ def _state(c: Comparison, random: np.random.Generator) -> Array:
 
 
 def _moving(problem: Problem, program: Program) -> slice:
-    """Where the velocity stands in our state, before masses that are numbers of it."""
-    end = len(program.state) - len(problem.stored)
-    count = program.dimension
-    if program.blocks:  # on a quotient there are fewer than the group has dimensions
-        count = sum(VELOCITY.match(x) is not None for x in program.state)
-    return slice(end - count, end)
+    """Where the velocity stands in our state, beside entries of g, what is advected and masses."""
+    known = known_in_lagrangian(problem.own_group, problem.advected) if problem.group else {}
+    others = {x for x, t in known.items() if isinstance(t, tuple) and t[1] in ("A", "Γ")}
+    own = [k for k, x in enumerate(program.state) if x not in others and x not in problem.stored]
+    return slice(own[0], own[-1] + 1)
 
 
 def _default(problem: Problem, program: Program, path: Path, function: str) -> Table:
