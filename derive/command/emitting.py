@@ -48,7 +48,7 @@ def options(args: argparse.Namespace, others: Options | None = None) -> Options:
 
 def allowances(p: Problem) -> tuple[str, ...]:
     """What may be negative in a problem, as the flags of the command line call it."""
-    stiffness = negative_stiffness_of(p.potentials, (*p.damping, *p.decay), p.parameters)
+    stiffness = negative_stiffness_of(p.potentials, p.damping, p.parameters)
     return ("mass",) * p.signed + ("stiffness",) * bool(stiffness)
 
 

@@ -20,7 +20,7 @@ from ..language.tree import Tree, add, mul, nodes, plain, replaced
 from ..language.values import approximate, elementary, value
 from ..schema.body_kinds import Body, GivenBody, MomentBody, PointBody
 from ..schema.kind import Parameter
-from .problem import Problem, points_of
+from .problem import Problem, ProblemError, points_of
 from .solids import fault_of_quadric
 
 Vector = tuple[Any, ...]
@@ -273,6 +273,34 @@ def impossible(group: Group, body: Body | None, parameters: Mapping[str, Paramet
     drawn = isinstance(body, GivenBody) and n == 3 and m > 0 and not body.given.central
     drawn = drawn and not _negative(group, J)
     return f"no masses have these moments{when}: {why}{f'; {CAD}' * drawn}" if why else ""
+
+
+def require_masses(problem: Problem, *, any_sign: bool) -> None:
+    """``ProblemError`` for a direction without inertia, and for masses that cannot be."""
+    moved, its_body = problem.group, problem.body
+    values = defaults(problem.parameters)
+    if fault := fault_of_quadrics(its_body, values, "the defaults"):
+        raise ProblemError(f"body: {fault}")
+    if moved and its_body and (still := still_direction(moved, its_body)):
+        raise ProblemError(
+            f"{still} has no kinetic energy together with any motion: the metric of these masses, "
+            "some of them negative, is degenerate at g = 1; change them"
+            if any_sign
+            else f"{still} moves no mass of this body: its motion is open; add masses, or where it "
+            "is a symmetry give L in a [lagrangian] instead, with forces at places beside it"
+        )
+    if moved and its_body and moved.free_translations and massless(its_body):
+        raise ProblemError("body: its mass is 0, and it has no centre of mass; change the masses")
+    if not moved or any_sign or not isinstance(its_body, GivenBody):
+        return
+    fault = impossible(moved, its_body, problem.parameters)
+    if fault and its_body.solids:
+        raise ProblemError(
+            "body: no masses have the moments of these solids: what has a negative density must be "
+            "a hole inside of others; or allow it with --allow-negative-mass"
+        )
+    if fault and not any(names(t) for t in its_body.trees()):  # of defaults it is a doubt
+        raise ProblemError(f"body, given: {fault}")
 
 
 def doubt_of_metric(second: Sequence[Sequence[Tree]], parameters: Mapping[str, Parameter]) -> str:

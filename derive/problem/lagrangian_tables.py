@@ -269,7 +269,7 @@ def torus_problem(
         title=title,
         parameters=parameters,
         inputs=inputs,
-        decay=damping,
+        damping=damping,
         torus=torus,
         **motion,
     )

@@ -130,6 +130,7 @@ class _Framing:
             damping=tuple(
                 Damping(coefficient=self._scaled(x.coefficient), on=tuple(numbers[i] for i in x.on))
                 for x in self.problem.damping
+                if isinstance(x, Damping)
             ),
         )
 
@@ -253,7 +254,7 @@ def _needed(problem: Problem, *, root: bool) -> Iterable[int]:
         if p not in inside:
             yield from p.points()
     yield from (x.on for x in problem.inputs if isinstance(x, ForceInput))
-    yield from (i for x in problem.damping for i in x.on)
+    yield from (i for _, i in problem.damped_points)
 
 
 def _pars(names: Iterable[str]) -> Vector:

@@ -60,8 +60,8 @@ class Problem:
     ``lagrangian``: one that no points give; the group then acts by matrices on (r, 1).
     ``advected``: what the algebra carries along, where the state has no element of the group; the
     last blocks of the group's matrices. ``fluid``: of a problem whose group has no matrices.
-    ``torus``: su(N) in the basis of the torus, where there is no table of the group; ``decay``: the
-    damping of its modes.
+    ``torus``: su(N) in the basis of the torus, where there is no table of the group; ``damping`` is
+    of its modes there.
     ``flows``: of mass that leaves or comes; how it pushes is among ``forces``.
     ``kinematics``: ġ as a function of g, where there is no Lagrangian.
     ``initial``, ``events``, ``signals``: of motions that are followed; the record of the equations
@@ -77,7 +77,7 @@ class Problem:
     potentials: tuple[Potential, ...] = ()
     inputs: tuple[Input, ...] = ()
     places: tuple[Place, ...] = ()
-    damping: tuple[Damping, ...] = ()
+    damping: tuple[Damping | LaplacianDamping, ...] = ()
     forces: tuple[Acting, ...] = ()
     outputs: tuple[Output, ...] = ()
     frame: Mapping[str, Any] | None = None
@@ -85,7 +85,6 @@ class Problem:
     lagrangian: Lagrangian | None = None
     advected: tuple[Advected, ...] | None = None
     torus: TorusLattice | None = None
-    decay: tuple[LaplacianDamping, ...] = ()
     fluid: Fluid | None = None
     flows: tuple[Flow, ...] = ()
     kinematics: Kinematics | None = None
@@ -135,7 +134,7 @@ class Problem:
         if self.torus:
             why = (
                 f"; how the energy and Tr Wᵏ change by what acts: step {self.name}.power"
-                if self.inputs or self.decay
+                if self.inputs or self.damping
                 else f", which keeps the energy and Tr Wᵏ: step {self.name}.conserved"
             )
             return (
@@ -183,6 +182,11 @@ class Problem:
     def force_inputs(self) -> tuple[ForceInput | TorqueInput, ...]:
         """The inputs that are forces and torques."""
         return tuple(i for i in self.inputs if isinstance(i, ForceInput | TorqueInput))
+
+    @property
+    def damped_points(self) -> list[tuple[Tree, int]]:
+        """The coefficients of damping, each with a point that it acts on."""
+        return [(x.coefficient, i) for x in self.damping if isinstance(x, Damping) for i in x.on]
 
     @property
     def stated_forces(self) -> tuple[Acting, ...]:
@@ -291,7 +295,7 @@ def data(problem: Problem) -> dict[str, Any]:
         "potentials": [*_plain(problem.potentials)],
         "inputs": [*_plain(problem.inputs)],
         "places": [*_plain(problem.places)],
-        "damping": [*_plain((*problem.damping, *problem.decay))],
+        "damping": [*_plain(problem.damping)],
         **({"forces": [*_plain(problem.stated_forces)]} if problem.stated_forces else {}),
         **({"flows": [*_plain(problem.flows)]} if problem.flows else {}),
         **({"outputs": [*_plain(problem.outputs)]} if problem.outputs else {}),

@@ -164,7 +164,8 @@ def problem_of(
         **motion_fields(data, reader),
     )
     _declared(problem, data)
-    _massive(problem, negative_mass)
+    require_bodies_own(problem)
+    inertia.require_masses(problem, any_sign=negative_mass)
     return problem
 
 
@@ -177,7 +178,7 @@ def _without_group(
     if on_torus(data):
         found = torus_problem(data, reader, _parameters(data.get("parameters", {}), reader))
         if not negative_stiffness:
-            _positive(negative_stiffness_of((), found.decay, found.parameters), "stiffness")
+            _positive(negative_stiffness_of((), found.damping, found.parameters), "stiffness")
         _declared(found, data)
         return found
     if "algebra" in data:
@@ -311,35 +312,6 @@ def _positive(where: str | None, what: str) -> None:
         )
 
 
-def _massive(problem: Problem, negative_mass: bool) -> None:
-    """``ProblemError`` for a direction without inertia, and for masses that cannot be."""
-    require_bodies_own(problem)
-    moved, its_body = problem.group, problem.body
-    values = inertia.defaults(problem.parameters)
-    if fault := inertia.fault_of_quadrics(its_body, values, "the defaults"):
-        raise ProblemError(f"body: {fault}")
-    if moved and its_body and (still := inertia.still_direction(moved, its_body)):
-        raise ProblemError(
-            f"{still} has no kinetic energy together with any motion: the metric of these masses, "
-            "some of them negative, is degenerate at g = 1; change them"
-            if negative_mass
-            else f"{still} moves no mass of this body: its motion is open; add masses, or where it "
-            "is a symmetry give L in a [lagrangian] instead, with forces at places beside it"
-        )
-    if moved and its_body and moved.free_translations and inertia.massless(its_body):
-        raise ProblemError("body: its mass is 0, and it has no centre of mass; change the masses")
-    if not moved or negative_mass or not isinstance(its_body, GivenBody):
-        return
-    fault = inertia.impossible(moved, its_body, problem.parameters)
-    if fault and its_body.solids:
-        raise ProblemError(
-            "body: no masses have the moments of these solids: what has a negative density must be "
-            "a hole inside of others; or allow it with --allow-negative-mass"
-        )
-    if fault and not any(names(t) for t in its_body.trees()):  # of defaults it is a doubt
-        raise ProblemError(f"body, given: {fault}")
-
-
 def _parameters(data: Any, reader: FileReader) -> dict[str, Parameter]:
     if not isinstance(data, dict):
         raise ProblemError("key 'parameters' must be a table")
@@ -418,7 +390,7 @@ def _moments(problem: Problem) -> list[Tree]:
 
 def _forces(problem: Problem) -> list[Tree]:
     lagrangian = [problem.lagrangian] if problem.lagrangian else []
-    outside = (*problem.inputs, *problem.damping, *problem.decay, *problem.forces)
+    outside = (*problem.inputs, *problem.damping, *problem.forces)
     return _trees((*lagrangian, *problem.potentials, *outside, *problem.outputs, *problem.places))
 
 
@@ -448,26 +420,21 @@ def doubts(p: Problem, given: Mapping[str, float], *, followed: bool = False) ->
     values = {k: replace(x, default=given.get(k, x.default)) for k, x in p.parameters.items()}
     negative = (
         negative_mass(p.body, values),
-        negative_stiffness_of(p.potentials, (*p.damping, *p.decay), values),
+        negative_stiffness_of(p.potentials, p.damping, values),
     )
     yield from (f"{where} is negative" for where in negative if where)
     if p.group and not p.signed and (why := impossible(p.group, p.body, values)):
         yield f"body: {why}"
-    if p.group and p.lagrangian and not p.signed:
-        second = hessian(p.lagrangian.L, coordinates(p.group))
-        yield from filter(None, [doubt_of_metric(second, values)])
-    if metric_in_time(p):
-        yield (
-            "the metric ∂²L/∂Z² depends on the time: if by a mass m(t), the equations are "
-            "d(mv)/dt = F, of what comes from rest or is left at rest in space; a rocket has "
-            "m dv/dt = F + dm/dt c, with c the velocity relative to it of what leaves it"
-        )
+    if p.group and p.lagrangian:
+        L = p.lagrangian.L
+        second = hessian(L, coordinates(p.group))
+        doubt = "" if p.signed else doubt_of_metric(second, values)
+        yield from (doubt,) * bool(doubt)
+        slopes = (derivative(x, "t") for row in second for x in row if "t" in nodes(L))
+        if not all(map(vanishes, slopes)):
+            yield (
+                "the metric ∂²L/∂Z² depends on the time: if by a mass m(t), the equations are "
+                "d(mv)/dt = F, of what comes from rest or is left at rest in space; a rocket has "
+                "m dv/dt = F + dm/dt c, with c the velocity relative to it of what leaves it"
+            )
     yield from () if followed else faults(p)
-
-
-def metric_in_time(p: Problem) -> bool:
-    """Does the kinetic energy of a Lagrangian of one's own depend on the time?"""
-    if not (p.group and p.lagrangian) or "t" not in nodes(p.lagrangian.L):
-        return False
-    second = hessian(p.lagrangian.L, coordinates(p.group))
-    return any(not vanishes(derivative(x, "t")) for row in second for x in row)

@@ -228,7 +228,7 @@ def conserved_with_damping(problem: Problem, record: Derivation) -> SymmetriesFo
     found = symmetries_of(replace(problem, damping=()), record, of_integrand=True)
     group = found.problem.own_group
     points: tuple[Point | Place, ...] = (*problem.points, *problem.places)
-    listed = [(x.coefficient, points[i - 1]) for x in problem.damping for i in x.on]
+    listed = [(kappa, points[i - 1]) for kappa, i in problem.damped_points]
     damped = [
         (kappa, (*problem.own_group.in_block(p.block, p.at, 1), 1)[: group.size])
         for kappa, p in listed

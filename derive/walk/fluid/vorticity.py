@@ -11,6 +11,7 @@ from ...algebra.words import Expr, Letter, inner, trace, word
 from ...language.tree import add, mul
 from ...problem.problem import Problem
 from ...record.record import Equation, Step
+from ...schema.force_kinds import LaplacianDamping
 from ..chapter import Chapter, say
 from ..lie.any_lagrangian import AnyLagrangian, sign_of
 from ..spine.alphabet import Alphabet
@@ -101,8 +102,10 @@ def torus_steps(
 
 def acting(problem: Problem) -> VorticityForcing:
     """What acts from outside dϖ."""
-    decay = tuple((x.coefficient, x.power) for x in problem.decay)
-    return VorticityForcing(bool(problem.covector), decay)
+    laplacian = (x for x in problem.damping if isinstance(x, LaplacianDamping))
+    return VorticityForcing(
+        bool(problem.covector), tuple((x.coefficient, x.power) for x in laplacian)
+    )
 
 
 def _basis(phase: Phase, fluid: ZeitlinFluid, general: AnyLagrangian, c: Chapter) -> Step:

@@ -346,9 +346,8 @@ def _damping(problem: Problem, b: Alphabet) -> tuple[list[Equation], Expr]:
 def damping_coefficients(problem: Problem) -> list[Equation]:
     """The equations of κ_i of the points that are damped."""
     terms: dict[int, list[Tree]] = {}
-    for d in problem.damping:
-        for i in d.on:
-            terms.setdefault(i, []).append(d.coefficient)
+    for kappa, i in problem.damped_points:
+        terms.setdefault(i, []).append(kappa)
     return [Equation(("at", "κ", i), add(*x)) for i, x in sorted(terms.items())]
 
 
