@@ -13,9 +13,10 @@ import mpmath
 
 from ..algebra.structure import Place, TorusLattice
 from ..routines import PRINTERS, printer_of, text_of
+from .languages import Statements
 from .naming import ClaimedNames
 from .options import Options
-from .program import EmittedFunction, Load
+from .program import EmittedFunction, Load, Program
 from .torus_forcing import EmittedForcing
 
 TABLE = 7
@@ -150,10 +151,46 @@ def looped(
     return found
 
 
+# What the templates are filled with.
+
+
+def count_loops(loops: Loops, known: Mapping[str, dict[str, Any]], language: str) -> None:
+    """Say what the functions with loops cost."""
+    for name in loops.names & {*known}:
+        of = known[name]["of"] or name
+        if language in PRINTERS:
+            by = "by table" if language == "c" and loops.table and of == "rhs" else "by three"
+            of = f"{of} {by}" if f"{of} {by}" in loops.operations else of
+        known[name]["operations"] = loops.operations[of]
+
+
+def loop_fields(
+    p: Program, language: str, written: Statements, fields: Mapping[str, Any]
+) -> dict[str, Any]:
+    """The template fields of the loops: N, (N − 1)/2, cos and sin of 2πk/N; or the functions that
+    have them."""
+    tables, printer = p.loops, written.printer
+    varied = "jacobian_parameters" in tables.names
+    slopes = written.part(p.functions["jacobian_parameters"], "p") if varied else {}
+    printed = _printed_sums(language, tables, fields, slopes) if language in PRINTERS else {}
+    return printed | {
+        "N": tables.N,
+        "half": tables.N // 2,
+        "names": tables.names,
+        "table": [[(*x[:4], printer.number(x.c)) for x in row] for row in tables.table],
+        "cosines": [printer.number(x) for x in tables.cosines],
+        "sines": [printer.number(x) for x in tables.sines],
+        "scale": printer.number(tables.scale),
+        "driven": tables.driven,
+        "damping": tables.damping,
+        "by_parameters": tables.parameters,
+    }
+
+
 OF_MATRICES = ("rhs", "conserved")
 
 
-def printed_sums(
+def _printed_sums(
     language: str, loops: Loops, fields: Mapping[str, Any], slopes: Mapping[str, Any]
 ) -> dict[str, Any]:
     """The bodies of these functions by their names; the tables and functions that they need.

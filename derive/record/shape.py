@@ -154,8 +154,7 @@ class _RecordReader(TableReader):
         if "lagrangian" not in data:
             return
         beside = ("potentials", "flows", *(() if "torus" in data else ("damping",)))
-        if key := next((x for x in beside if data.get(x)), ""):
-            raise ShapeError(f"lagrangian: it says all of L; {key} must be empty")
+        self.empty("lagrangian: it says all of L", *beside)
         if on_algebra:
             self.covectors_alone()
         if any(x["kind"] in OF_MASSES for x in data.get("outputs", ())):
@@ -167,8 +166,7 @@ class _RecordReader(TableReader):
         self.typed(Torus, data["torus"], "torus")
         if [x["kind"] for x in data["inputs"]] not in ([], ["covector"]):
             raise ShapeError("torus: its input is one covector")
-        if absent := next((x for x in ("forces", "outputs") if data.get(x)), ""):
-            raise ShapeError(f"torus: inputs and damping act on it; {absent} must be empty")
+        self.empty("torus: inputs and damping act on it", "forces", "outputs")
         if data["lagrangian"] != {"trivialisation": "right"} or "advected" in data:
             raise ShapeError("lagrangian: that of the torus is told by its steps, on the right")
 
@@ -197,9 +195,12 @@ class _RecordReader(TableReader):
         for key in absent:
             if key in self.data:
                 raise ShapeError(f"{begin} no key {key!r}")
-        for key in ("potentials", "places", "damping", "inputs", *empty):
-            if self.data[key]:
-                raise ShapeError(f"{begin.partition(':')[0]}: {key} must be empty")
+        self.empty(begin.partition(":")[0], "potentials", "places", "damping", "inputs", *empty)
+
+    def empty(self, begin: str, *keys: str) -> None:
+        """``ShapeError`` where one of these lists nothing may stand in is not empty."""
+        if key := next((x for x in keys if self.data.get(x)), ""):
+            raise ShapeError(f"{begin}; {key} must be empty")
 
     def kinematics(self) -> None:
         """ġ says all of the motion, on the matrices of a group."""
@@ -217,9 +218,6 @@ class _RecordReader(TableReader):
     def rate(self, slot: Slot) -> Rows:
         """Of the entries of A, parameters and inputs."""
         n, inputs = self.data["n"], slot.found["inputs"]
-        listed = self.value(slot, list)
-        if len(listed) != n or not all(isinstance(x, list) and len(x) == n for x in listed):
-            raise ShapeError(f"{slot.path}: expected a matrix of {n} rows")
 
         def plain(t: Tree) -> Tree:
             """The same with 1 for inputs, and with no number where ζ stands."""
@@ -228,7 +226,7 @@ class _RecordReader(TableReader):
             return "ζ" if "ζ" in nodes(t) else t
 
         one = partial(self.made_of, plain=plain, coordinates=len(self.data["basis"]))
-        return tuple(tuple(one(x, slot.path) for x in row) for row in listed)
+        return self.rows(self.value(slot), n, n, slot.path, one=one)
 
     def symmetries(self) -> None:
         """The fields δA by which a record reduces, which is of a Lagrangian on a group."""
@@ -425,10 +423,6 @@ class _RecordReader(TableReader):
         """The dimension of the space."""
         n = self.data["n"]
         return n if isinstance(n, int) else 0
-
-    def turned(self, value: Any, n: int, where: str) -> Rows:
-        """Rows of trees."""
-        return self.rows(value, n, n, where)
 
     def second(self, slot: Slot) -> Rows:
         """A matrix."""

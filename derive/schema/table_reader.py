@@ -286,9 +286,9 @@ class TableReader(ABC):
     def layered(self, slot: Slot) -> Tree:
         """A density."""
 
-    @abstractmethod
     def turned(self, value: Any, n: int, where: str) -> Rows:
         """A rotation of Rⁿ."""
+        return self.rows(value, n, n, where)
 
     def scalar(self, slot: Slot) -> Tree:
         """An expression."""
@@ -307,12 +307,20 @@ class TableReader(ABC):
             raise self.fail(f"{where}: expected a list of {n or 'a few'} expressions{example}")
         return tuple((one or self.expression)(x, where) for x in value)
 
-    def rows(self, value: Any, count: int, n: int, where: str, what: str = "rows") -> Rows:
+    def rows(
+        self,
+        value: Any,
+        count: int,
+        n: int,
+        where: str,
+        what: str = "rows",
+        one: Callable[[Any, str], Tree] | None = None,
+    ) -> Rows:
         """A list of lists."""
         if not isinstance(value, list) or len(value) != count:
             raise self.fail(f"{where}: expected a list of {count} {what}")
         return tuple(
-            self.listed(row, n, f"{where}, {what[:-1]} {k}") for k, row in enumerate(value, 1)
+            self.listed(row, n, f"{where}, {what[:-1]} {k}", one) for k, row in enumerate(value, 1)
         )
 
     @abstractmethod
