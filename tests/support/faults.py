@@ -15,7 +15,8 @@ import tomllib
 from pathlib import Path
 
 ROOT = Path(__file__).parents[2]
-FAULTS = tomllib.loads(Path(__file__).with_suffix(".toml").read_text(encoding="utf-8"))["fault"]
+FILES = tomllib.loads(Path(__file__).with_suffix(".toml").read_text(encoding="utf-8"))
+FAULTS = [{"file": file, "name": x, **y} for file, own in FILES.items() for x, y in own.items()]
 """``name``, ``file``, what is ``old`` and stands there once, what is ``new``, and the ``tests``."""
 
 
