@@ -170,8 +170,8 @@ class C(Printer):
             case "real" | "whole":
                 kind = self.real if name == "real" else "int"
                 return f"({kind})" + self.at(given[0], ATOM)
-            case "fused" | "in_memory":
-                had = {"fused": "fused", "in_memory": "IN_MEMORY"}[name]
+            case "fused" | "in_memory" | "larger":
+                had = {"in_memory": "IN_MEMORY"}.get(name, name)
                 return f"{self.prefix}_{had}({', '.join(map(self.bare, given))})"
             case "is_held":
                 return "!m->inputs"

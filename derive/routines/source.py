@@ -59,7 +59,7 @@ class Type:
 
     @property
     def is_lanes(self) -> bool:
-        """Is it one number for each stage?"""
+        """Is it one number for each lane?"""
         return self.name in LANES and not self.sizes
 
 
@@ -67,7 +67,8 @@ INDICES = ("i", "j")
 """The names that count what is unrolled, which are known then."""
 
 LANES = ("lanes", "eight")
-"""Eight numbers, one for each stage: in registers where a language has such, and in memory."""
+"""Eight numbers, one for each stage, or motion: in registers where a language has such, and in
+memory."""
 
 OPERATORS = {
     ast.Add: "+",

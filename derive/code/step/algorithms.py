@@ -233,8 +233,28 @@ def in_c(p: Program, fields: Mapping[str, Any]) -> dict[str, str]:
         "NO_EVENT": -1,
     }
     more = INPUTS_IN_C.format(real=fields["real"]) if p.inputs else ""
-    device = {"device": on_a_device(given)} if steps["ensemble"] and fields["header"] else {}
-    return device | _texts(C, given, steps, more)
+    many = {"many": in_lanes(given)} if steps["ensemble"] else {}
+    if many and fields["header"]:
+        many["device"] = on_a_device(given)
+    return many | _texts(C, given, steps, more)
+
+
+def in_lanes(given: Mapping[str, Any]) -> str:
+    """Eight motions, one in each lane, and a step of each by rk4 and vern9."""
+    prefix, source = given["prefix"], Source()
+    each = {name: _of_method(METHODS[name][0](), 0, device=True) for name in ("rk4", "vern9")}
+    own = {
+        **given,
+        "ENDS": given["PARTS"][1:],
+        "MOST_ROWS": max(x["ROWS"] for x in each.values()),
+        "inline": "static inline",
+        "projected_each": f"{given.get('projected', prefix)}_each",
+    }
+    for name, method in each.items():
+        source.read(text_of("ensemble_lanes").replace("METHOD", name), {**own, **method})
+    printer = C(source, own)
+    parts = [*map("\n".join, map(printer.record, source.records))]
+    return "\n\n".join([*parts, printer.text(["entered", "rk4_each", "vern9_each"])])
 
 
 def on_a_device(given: Mapping[str, Any]) -> str:

@@ -29,7 +29,7 @@ from ..program import (
     names,
 )
 from .tableaux import GROWTH as EXPLICIT_GROWTH
-from .tableaux import METHODS, Collocation, StageModes, explicit, fields_of
+from .tableaux import METHODS, Collocation, StageModes, explicit
 from .tableaux import SAFETY as EXPLICIT_SAFETY
 
 OF_ONE, OF_EACH = ("t", "x", "u"), ("t", "x", "u", "k")
@@ -165,7 +165,7 @@ def steps(p: Program, written: Statements, options: Options) -> dict[str, Any]:
         if {*COLLOCATED} & {*options.step} and not p.loops
         else [],
         "adaptive": {*options.step} - {*FIXED},
-        "explicit": (told := explicit(options.step, written.printer.number)),
+        "explicit": (told := explicit(options.step)),
         "discrete": discrete(p, options),
         "held": "discrete" in options.step or "vern9" in options.step,
         "memory": memory(p, options, told["rows"] if told else 0),
@@ -265,14 +265,15 @@ SMALL = 12
 
 
 def ensemble(p: Program, written: Statements) -> dict[str, Any]:
-    """The right-hand side of a motion in each lane, the way back to the group, and the methods."""
+    """The right-hand side of a motion in each lane, the way back to the group, and how steps of
+    Verner's pair change."""
     found = p.functions.get("project")
     return {
         "rhs": in_lanes(p.functions["rhs"], written, OF_EACH),
         "project": in_lanes(found, written, OF_EACH) if found else None,
         "growth": EXPLICIT_GROWTH,
         "safety": EXPLICIT_SAFETY,
-        **{name: fields_of(name, written.printer.number) for name in ("rk4", "vern9")},
+        "order": METHODS["vern9"][0]().order,
     }
 
 

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from decimal import Decimal, localcontext
-from fractions import Fraction
 from functools import cache, cached_property
 from math import cos, factorial, pi
 from typing import Any
@@ -320,43 +319,19 @@ GROWTH, SAFETY = 5.0, 0.9
 """By how much a step may grow, and the part taken of what its error suggests."""
 
 
-def explicit(names: Iterable[str], number: Callable[[Fraction], str]) -> dict[str, Any] | None:
-    """The explicit ones of these steps, and the most rows of any; ``None`` without any."""
-    found = [fields_of(name, number) for name in names if name in METHODS]
+def explicit(names: Iterable[str]) -> dict[str, Any] | None:
+    """The explicit ones of these steps, and the most rows of any with those of dense output alone;
+    has one such, ``extra``?  ``None`` without any."""
+    found = [
+        {"name": name, "title": METHODS[name][1], "method": METHODS[name][0]()}
+        for name in names
+        if name in METHODS
+    ]
     if not found:
         return None
+    methods = [x["method"] for x in found]
     return {
         "methods": found,
-        "rows": max(method["rows"] for method in found),
-        "extra": any(method["extra"] for method in found),
-    }
-
-
-def fields_of(name: str, number: Callable[[Fraction], str]) -> dict[str, Any]:
-    """The numbers of a method as text.  ``main``: for each stage of the step its index, c, and the
-    row of a; a row, b, and e = b − b̂ are pairs of an index and a number that is not 0; ``rows``:
-    how many there are with those of dense output alone; has it such, ``extra``?"""
-    make, title = METHODS[name]
-    method = make()
-
-    def text(x: Decimal) -> str:
-        return number(Fraction(float(x)))
-
-    def terms(numbers: Sequence[Decimal]) -> list[tuple[int, str]]:
-        return [(j, text(x)) for j, x in enumerate(numbers) if x]
-
-    rows = [
-        (i, text(c), terms(row)) for i, (c, row) in enumerate(zip(method.c, method.a, strict=True))
-    ]
-    return {
-        "name": name,
-        "title": title,
-        "order": method.order,
-        "dense_order": method.dense_order,
-        "adaptive": bool(method.embedded),
-        "main": rows[: method.stages],
-        "extra": len(rows) > method.stages,
-        "b": terms(method.b),
-        "e": terms(method.error) if method.embedded else [],
-        "rows": len(method.legendre),
+        "rows": max(len(x.legendre) for x in methods),
+        "extra": any(len(x.a) > x.stages for x in methods),
     }
