@@ -322,16 +322,11 @@ GROWTH, SAFETY = 5.0, 0.9
 def explicit(names: Iterable[str]) -> dict[str, Any] | None:
     """The explicit ones of these steps, and the most rows of any with those of dense output alone;
     has one such, ``extra``?  ``None`` without any."""
-    found = [
-        {"name": name, "title": METHODS[name][1], "method": METHODS[name][0]()}
-        for name in names
-        if name in METHODS
-    ]
+    found = {x: METHODS[x][0]() for x in names if x in METHODS}
     if not found:
         return None
-    methods = [x["method"] for x in found]
     return {
-        "methods": found,
-        "rows": max(len(x.legendre) for x in methods),
-        "extra": any(len(x.a) > x.stages for x in methods),
+        "methods": [{"name": x, "title": METHODS[x][1], "method": y} for x, y in found.items()],
+        "rows": max(len(x.legendre) for x in found.values()),
+        "extra": any(len(x.a) > x.stages for x in found.values()),
     }
