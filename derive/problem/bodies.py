@@ -35,9 +35,9 @@ from ..schema.force_kinds import (
     QuadraticDamping,
     RotationalDamping,
     ScalarInput,
-    StatedCovector,
     StatedForce,
     TorqueInput,
+    acting_kind,
 )
 from ..schema.kind import GROUP, Parameter, StatedGroup
 from ..schema.motion_kinds import (
@@ -180,8 +180,7 @@ def forces(data: Mapping[str, object], reader: FileReader) -> Forces:
         for w, x in damping.items()
     )
     of_state: tuple[Acting, ...] = tuple(
-        reader.typed(StatedCovector, x, w) if "covector" in x else reader.typed(StatedForce, x, w)
-        for w, x in stated.items()
+        reader.typed(acting_kind(x), x, w) for w, x in stated.items()
     )
     return found, given, damped, of_state
 

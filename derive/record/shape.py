@@ -16,15 +16,7 @@ from ..language.limits import BASIS, CARRIED, LAYERS, TORUS
 from ..language.reserved import acting_in, taken
 from ..language.tree import Tree, nodes, operands, replaced
 from ..schema.body_kinds import BODIES, LAYERED, SOLIDS, Place, Solid, is_ellipsoid
-from ..schema.force_kinds import (
-    INPUTS,
-    Acting,
-    Damping,
-    Flow,
-    LaplacianDamping,
-    StatedCovector,
-    StatedForce,
-)
+from ..schema.force_kinds import INPUTS, Damping, Flow, LaplacianDamping, acting_kind
 from ..schema.kind import GROUP, Advected, Fluid, Kinematics, Lagrangian, Torus
 from ..schema.motion_kinds import OF_MASSES, OUTPUTS, fault_of_gravity
 from ..schema.potential_kinds import kinds
@@ -63,10 +55,8 @@ class _RecordReader(TableReader):
         self.identifier(data["name"], "name")
         self.choice(self.top("action"), ACTIONS)
         self.value(self.top("homogeneous"), bool)
-        n = self.value(self.top("n"))
-        most = TORUS if "torus" in data else 2 * self.longest
-        if n != "any" and not (type(n) is int and 1 <= n <= most):
-            raise ShapeError("n: key must be the dimension of the space, or 'any'")
+        if (n := self.value(self.top("n"))) != "any":
+            self.integer(n, 1, TORUS if "torus" in data else 2 * self.longest, "n")
         self.blocks = len(data["group"].split(" x "))
         for name, about in self.value(self.top("parameters"), dict).items():
             self.parameter(name, about)
@@ -76,7 +66,9 @@ class _RecordReader(TableReader):
         inputs = self.each("inputs", partial(self.one_of, INPUTS))
         self.distinct(inputs, data["parameters"])
         self.each("damping", self.damped)
-        forces: list[Any] = self.each("forces", self.acting, optional=True)
+        forces: list[Any] = self.each(
+            "forces", lambda x, where: self.typed(acting_kind(x), x, where), optional=True
+        )
         forces += self.each("flows", self.flow, optional=True)
         outputs = self.each("outputs", partial(self.one_of, OUTPUTS), optional=True)
         self.distinct_outputs(outputs, inputs, data["parameters"], forces)
@@ -105,12 +97,6 @@ class _RecordReader(TableReader):
         listed = enumerate(self.value(self.top(key), list), 1)
         return [read(x, f"{key.removesuffix('s')} {k}") for k, x in listed]
 
-    def acting(self, data: Any, where: str) -> Acting:
-        """A force of the state, at a place, or a covector."""
-        if isinstance(data, dict) and "covector" in data:
-            return self.typed(StatedCovector, data, where)
-        return self.typed(StatedForce, data, where)
-
     def damped(self, data: Any, where: str) -> Damping | LaplacianDamping:
         """A damping, of points or of the modes of a fluid on the torus."""
         if "torus" in self.data:
@@ -137,10 +123,8 @@ class _RecordReader(TableReader):
     def lagrangian(self) -> None:
         """A Lagrangian that no points give is beside no body, and all that acts but covectors."""
         data = self.data
-        for key, own in (("fluid", self.fluid), ("kinematics", self.kinematics)):
-            if key in data:
-                own()
-                return
+        if "fluid" in data or "kinematics" in data:
+            return self.fluid() if "fluid" in data else self.kinematics()
         if data["group"] == GROUP:
             raise ShapeError(f"fluid: the problem of {GROUP} has this key")
         if ("lagrangian" in data) != (data["body"]["kind"] == "none"):
@@ -248,10 +232,9 @@ class _RecordReader(TableReader):
     def held(self, slot: Slot) -> tuple[int, ...]:
         """Numbers of coordinates, in order, or none."""
         listed = slot.table.get(slot.key, [])
-        most = len(self.data["basis"])
         if not isinstance(listed, list) or listed != sorted({*listed}):
             raise ShapeError(f"{slot.path}: expected numbers of coordinates, in order")
-        return tuple(self.integer(x, 1, most, slot.path) for x in listed)
+        return tuple(self.integer(x, 1, len(self.data["basis"]), slot.path) for x in listed)
 
     def elements(self, slot: Slot) -> int:
         """How many entries."""

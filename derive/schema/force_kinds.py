@@ -210,6 +210,12 @@ class StatedCovector(Acting):
         return {"name": name, "covector": covector}
 
 
+def acting_kind(table: Any) -> type[StatedForce] | type[StatedCovector]:
+    """Of a force of the state, as its table says it: at a place, or a covector."""
+    covector = isinstance(table, dict) and "covector" in table
+    return StatedCovector if covector else StatedForce
+
+
 class Flow(Nameable):
     """Mass that comes to a place of the body, or leaves there: the ``rate`` dm/dt, below 0 where it
     leaves, and its ``velocity`` relative to the body, along the axes of this; ``mass``: the number
