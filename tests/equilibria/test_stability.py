@@ -16,7 +16,15 @@ from derive.record.prose import message
 from derive.record.sentence import Sentence, english
 from derive.search.equilibria.energy_casimir import between_roots, diagonalised
 from derive.search.equilibria.stability import polynomial, roots_of_squares
-from tests.support.lagrangians import LINE, heavy, heisenberg, lagrangian, nilpotent, two_algebras
+from tests.support.lagrangians import (
+    LINE,
+    heavy,
+    heisenberg,
+    lagrangian,
+    nilpotent,
+    squares,
+    two_algebras,
+)
 from tests.support.walks import repeated
 
 
@@ -477,3 +485,25 @@ def test_another_threshold_is_refused():
     near = ("mul", Fraction(4000001, 1000000), ("par", "I1"), ("par", "mgl"))
     bad = [v for v in check(corrupted(record, old, near), 1) if not v.holds]
     assert {v.label.rpartition(".")[2] for v in bad} >= {"energy_casimir_2", "energy_casimir_4"}
+
+
+TURNS = [
+    [[0, 0, 0], [0, 0, -1], [0, 1, 0]],
+    [[0, 0, 1], [0, 0, 0], [-1, 0, 0]],
+    [[0, -1, 0], [1, 0, 0], [0, 0, 0]],
+]
+"""j(e₁), j(e₂), j(e₃)."""
+
+
+def test_where_a_body_points_is_said_of_a_group_by_its_basis():
+    """As of the one with the name, unless it is not turned by all rotations."""
+    own, axis = ({"name": "Own", "action": "linear", "basis": x} for x in (TURNS, TURNS[:1]))
+
+    def said(kinetic, group):
+        found = derive(lagrangian(f"({kinetic})/2 + A_33", group)).equilibria({"A_33": 1})
+        assert all(x.holds for x in found.check(1))
+        claims = (x for step in found.record.steps for x in step.claims)
+        return [x for x in claims if x.kind.startswith("position.")]
+
+    assert said(squares(1, 1, 2), own) == said(squares(1, 1, 2), "SO(3)") != []
+    assert said("zeta_1^2", axis) == []
