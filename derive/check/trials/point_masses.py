@@ -205,9 +205,7 @@ class Body(Draws):
         pairs = zip(weights, self.images(a), self.images(b), strict=True)
         return sum((m * q.dot(u, v) for m, u, v in pairs), Fraction(0))
 
-    def metric_matrix(
-        self, tangents: list[Matrix], weights: Sequence[Any] | None = None
-    ) -> Matrix:
+    def metric_matrix(self, tangents: list[Matrix], weights: Sequence[Any] | None = None) -> Matrix:
         """The matrix of the kinetic metric on tangent matrices at g; ``weights`` as above."""
         moved = [[x for v in self.images(a) for x in v] for a in tangents]
         weights = self.masses if weights is None else weights
