@@ -399,7 +399,7 @@ def _placed(f: EmittedFunction) -> list[tuple[Section, list[int]]]:
     loaded = {x.name for x in f.loads}
     read = [names([x]) for x in f.outputs]
     pending = _equations(f)
-    known: set[str] = set()
+    known = {*loaded}
     seen: set[str] = set()
     found = []
     for section in f.sections:
@@ -412,7 +412,7 @@ def _placed(f: EmittedFunction) -> list[tuple[Section, list[int]]]:
             for equation in pending:
                 reads = loaded & {x for i in equation for x in read[i]}
                 if 2 * len(reads & seen) >= len(reads):
-                    ready = [i for i in equation if read[i] <= known | loaded]
+                    ready = [i for i in equation if read[i] <= known]
                     outputs += ready
                     equation[:] = [i for i in equation if i not in ready]
             if outputs:

@@ -93,9 +93,12 @@ def dot(a: Iterable[Any], b: Iterable[Any]) -> Any:
         (x, d), (y, e) = map(over_one, (a, b))  # type: ignore[misc]
         return Fraction(sum(map(mul, x, y)), d * e)
     own: list[Any] = [k for k in kinds if hasattr(k, "dot")]
-    if not own:
-        return sum(map(mul, a, b), ZERO)
-    return (own[0] if len(own) == 1 else next(k for k in own if hasattr(k, "parts"))).dot(a, b)
+    return _outer(own).dot(a, b) if own else sum(map(mul, a, b), ZERO)
+
+
+def _outer(kinds: Sequence[Any]) -> Any:
+    """Of two kinds of numbers, that whose ``parts`` are of the other."""
+    return kinds[0] if len(kinds) == 1 else next(k for k in kinds if hasattr(k, "parts"))
 
 
 def matrix(rows: Sequence[Sequence[Any]]) -> Matrix:
@@ -156,8 +159,8 @@ def times(a: Sequence[Sequence[Any]], b: Sequence[Sequence[Any]]) -> Matrix:
     columns = transposed(b)
     kinds = {type(x) for m in (a, b) for row in m for x in row}
     own: list[Any] = [k for k in kinds if hasattr(k, "product")]
-    if own and kinds <= EXACT | {own[0]} and {*map(len, a)} <= {len(b)}:
-        return own[0].product(a, columns)  # type: ignore[no-any-return]
+    if own and kinds <= EXACT | {*own} and {*map(len, a)} <= {len(b)}:
+        return _outer(own).product(a, columns)  # type: ignore[no-any-return]
     left = [x for row in a if (x := over_one(row))]
     right = [x for col in columns if (x := over_one(col))]
     exact = len(left) == len(a) and len(right) == len(columns)

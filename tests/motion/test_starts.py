@@ -15,7 +15,7 @@ from derive.motion.run import read, written
 from derive.motion.start import continued
 from derive.problem.problem import ProblemError
 from derive.problem.toml import load
-from tests.problems import READY
+from tests.support import walks
 
 BODY = """
 name = "swing"
@@ -132,9 +132,7 @@ def test_a_text_about_any_group_has_no_motion(tmp_path):
         load(problem(tmp_path, 'name = "x"\ngroup = "any"\naction = "linear"\n[initial]\na = 1\n'))
 
 
-@pytest.mark.parametrize(
-    "name", [x for x in ready_made() if load(READY / f"{x}.toml").initial.trees()]
-)
+@pytest.mark.parametrize("name", [x for x in ready_made() if walks.problem(x).initial.trees()])
 def test_the_ready_made_starts_move(name):
     run = derive.derive(name).simulate(0.1, points=1)
     assert run.ended == ""

@@ -11,11 +11,10 @@ import pytest
 
 from derive import derive as derived
 from derive.code.options import CHOICES, REPEATED
-from derive.command.showing import READY, ready_made
-from derive.problem.toml import load
+from derive.command.showing import ready_made
 from playground.site import ROOT, built
 from playground.stage import options, schema
-from tests.support import in_node
+from tests.support import in_node, walks
 from tests.support.library import module_of
 from tests.support.needs import need
 from tests.support.played import PENDULUM, text_of
@@ -129,13 +128,11 @@ exp = [0.3, 0, 0]
     assert told["left"] == ["q", "θ"]
 
 
-@pytest.mark.parametrize(
-    "name", [x for x in ready_made() if x != "imu" and load(READY / f"{x}.toml").group]
-)
+@pytest.mark.parametrize("name", [x for x in ready_made() if x != "imu" and walks.problem(x).group])
 def test_names_of_the_velocity_are_the_emitted_ones(name):
     """Of what the page offers, where the group is a named one, but for coordinates that are held
     at 0, which only a derivation finds; tests/problem has those that are told with the walk."""
-    problem = load(READY / f"{name}.toml")
+    problem = walks.problem(name)
     given = {"schema": schema(), "text": text_of(name)}
     call = "velocity(given.schema, given.text)"
     found = in_node.told('import { velocity } from "./src/completion.js";', call, given)

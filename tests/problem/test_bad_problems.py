@@ -116,7 +116,7 @@ def told(tmp_path, capsys):
 
 
 @pytest.mark.parametrize(
-    "name", [x for x in ready_made() if x != "imu" and load(READY / f"{x}.toml").group is not None]
+    "name", [x for x in ready_made() if x != "imu" and problem(x).group is not None]
 )
 def test_they_are_those_of_the_emitted_code(name):
     problem = load(READY / f"{name}.toml")

@@ -200,13 +200,8 @@ class DiscreteModel(Model):
     def damped_metric(self) -> Matrix:
         """The metric of the kinetic energy on g₁𝔤, and h/2 times that of damping."""
         along = [q.times(self.g, e) for e in self.group.basis]
-        return tuple(
-            tuple(
-                x + self.pairing(a, b, self.dampings) * self.h * Fraction(1, 2)
-                for x, b in zip(row, along, strict=True)
-            )
-            for row, a in zip(self.metric, along, strict=True)
-        )
+        drag = self.metric_matrix(along, self.dampings)
+        return q.plus(self.metric, q.scaled(self.h * Fraction(1, 2), drag))
 
     @cached_property
     def damped(self) -> Matrix:

@@ -205,11 +205,12 @@ class Body(Draws):
         pairs = zip(weights, self.images(a), self.images(b), strict=True)
         return sum((m * q.dot(u, v) for m, u, v in pairs), Fraction(0))
 
-    def metric_matrix(self, tangents: list[Matrix]) -> Matrix:
-        """The matrix of the kinetic metric on tangent matrices at g."""
+    def metric_matrix(self, tangents: list[Matrix], weights: Sequence[Any] | None = None) -> Matrix:
+        """The matrix of the kinetic metric on tangent matrices at g; ``weights`` as above."""
         moved = [[x for v in self.images(a) for x in v] for a in tangents]
-        weights = [m for m in self.masses for _ in range(self.n)]
-        rows = [[m * x for m, x in zip(weights, u, strict=True)] for u in moved]
+        weights = self.masses if weights is None else weights
+        each = [m for m in weights for _ in range(self.n)]
+        rows = [[m * x for m, x in zip(each, u, strict=True)] for u in moved]
         return q.times(q.matrix(rows), q.transposed(q.matrix(moved)))
 
 

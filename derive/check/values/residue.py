@@ -56,9 +56,7 @@ def _inverse(n: int, p: int) -> int:
 
 
 def _residue(x: Any, p: int) -> int:
-    """The residue of an integer, a fraction or a residue, as an integer."""
-    if type(x) is Residue:
-        return x.n
+    """The residue of an integer or a fraction, as an integer."""
     a, b = x.as_integer_ratio()
     return int(a) if b == 1 else _quotient(a, b, p)
 
@@ -96,7 +94,10 @@ class Residue(FieldElement):
     def product(rows: Sequence[Sequence[Any]], columns: Sequence[Sequence[Any]]) -> Any:
         """Each row times each column, reduced modulo p once."""
         p = next(x.p for m in (rows, columns) for y in m for x in y if isinstance(x, Residue))
-        left, right = ([[_residue(x, p) for x in y] for y in m] for m in (rows, columns))
+        left, right = (
+            [[x.n if type(x) is Residue else _residue(x, p) for x in y] for y in m]
+            for m in (rows, columns)
+        )
         return tuple(tuple(Residue(sum(map(mul, x, y)), p) for y in right) for x in left)
 
     def __add__(self, other: Any) -> Any:
@@ -237,6 +238,14 @@ def _degree_of_sum(a: Degree, b: Degree) -> Degree:
     return _degree_of(Grade(*map(max, *lifted)), powers)
 
 
+@lru_cache(MEMO)
+def _degree_of_dot(a: tuple[Degree | None, ...], b: tuple[Degree | None, ...]) -> Degree | None:
+    """That of Σ a_i b_i, where ``None`` is a plain 0."""
+    terms = dict.fromkeys((x, y) for x, y in zip(a, b, strict=True) if x and y)
+    sums = dict.fromkeys(_degree_of_product(x, y) for x, y in terms)
+    return reduce(_degree_of_sum, sums) if sums else None
+
+
 CONSTANT = _degree(ZERO_GRADE, ())
 _number = count(1)
 
@@ -271,11 +280,15 @@ class Graded(FieldElement):
 
     @staticmethod
     def dot(a: Sequence[Any], b: Sequence[Any]) -> Any:
-        """Σ a_i b_i: of terms of one degree, one is enough."""
-        pairs = ((x, y) for x, y in zip(a, b, strict=True) if _is_there(x) and _is_there(y))
-        terms = dict.fromkeys(tuple(degrees(pair)) for pair in pairs)
-        sums = dict.fromkeys(_degree_of_product(x, y) for x, y in terms)
-        return Graded(reduce(_degree_of_sum, sums)) if sums else Fraction(0)
+        """Σ a_i b_i."""
+        return Graded.product([a], [b])[0][0]
+
+    @staticmethod
+    def product(rows: Sequence[Sequence[Any]], columns: Sequence[Sequence[Any]]) -> Matrix:
+        """Each row times each column: of terms of one degree, one is enough."""
+        left, right = ([(*map(_degree_if_there, x),) for x in m] for m in (rows, columns))
+        found = ((_degree_of_dot(x, y) for y in right) for x in left)
+        return tuple(tuple(Graded(x) if x else Fraction(0) for x in row) for row in found)
 
     def __neg__(self) -> Graded:
         return self
@@ -307,9 +320,11 @@ class Graded(FieldElement):
         return tuple(tuple(Graded(found) for _ in b[0]) for _ in a)
 
 
-def _is_there(x: Any) -> bool:
-    """Is it no plain 0?"""
-    return isinstance(x, Graded) or x != 0
+def _degree_if_there(x: Any) -> Degree | None:
+    """Its degree; ``None`` for a plain 0."""
+    if isinstance(x, Graded):
+        return x.degree
+    return CONSTANT if x != 0 else None
 
 
 def common_degree(entries: Iterable[Any]) -> Degree:
