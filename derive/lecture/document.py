@@ -71,14 +71,14 @@ AMONG = 60
 SIGNS = re.compile(r"\s*[.,;:]")
 
 
-SHORT = 7.0
-"""The width, in em, below which a formula among words is not broken."""
+SHORT, SIGN = 7.0, re.compile(r" \S+ ")
+"""The width, in em, below which a formula among words is not broken, and where it might be."""
 
 
 def _inline(x: typeset.Formula) -> str:
     """A formula among words as LaTeX."""
     tex = plain(x.tex)
-    return f"${{{tex}}}$" if measure(tex) < SHORT else f"${tex}$"
+    return f"${{{tex}}}$" if measure(tex) < SHORT and SIGN.search(tex) else f"${tex}$"
 
 
 LATEX = Medium(

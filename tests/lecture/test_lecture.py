@@ -206,9 +206,11 @@ def test_the_page_has_every_formula_of_the_text(lang):
     assert len({*named}) == len(named)
 
 
-FIGURE = re.compile(r"\\begin\{figure\}.*?\\\\parbox", re.S)
-TYPESET = re.compile(r"(?<!\\)\$(.*?)(?<!\\)\$|(?<!\\)\\\[(.*?)\\\]", re.S)
-MARGIN = re.compile(r"\\numbered\{.*?\}|\\ofnote\{.*?\}|\\qedhere")
+FIGURE = re.compile(r"^.*?\\begin\{document\}", re.S)  # the pictures stand before the text
+TYPESET = re.compile(
+    r"(?<!\\)\$(.*?)(?<!\\)\$|(?<!\\)\\\[(.*?)\\\]|\\begin\{equation\}(.*?)\\end\{equation\}", re.S
+)
+MARGIN = re.compile(r"^\\label\{.*?\}|\\ofnote\{.*?\}|\\qedhere")
 
 
 def letters_of(text):
@@ -219,7 +221,7 @@ def letters_of(text):
 
 def not_printed(tex, at):
     """The formulas of the text that the LaTeX of the whole has not, or with other marks."""
-    found = (a or b for a, b in TYPESET.findall(FIGURE.sub("", tex)))
+    found = (a or b or c for a, b, c in TYPESET.findall(FIGURE.sub("", tex)))
     printed = Counter(letters_of(letters_in(MARGIN.sub("", x))) for x in found)
     entries = (x for c in CHAPTERS for e in c.entries for x in e.texts[at])
     typed = Counter(letters_of(x.text + x.value) for x in entries if isinstance(x, Formula))
@@ -247,7 +249,7 @@ def test_the_equations_that_are_cited_are_numbered_in_their_order_and_no_others(
         assert {*labelled} <= cited <= {*labels, *NUMBERS}
     page, tex = shown("page", "en"), shown("latex", "en")
     numbered = [(str(k), label) for k, label in enumerate(labelled, 1)]
-    assert re.findall(r"\\numbered{(\w+)}", tex) == labelled  # which TeX counts
+    assert re.findall(r"\\begin{equation}\\label{(\w+)}", tex) == labelled  # which TeX counts
     displays = r'<div class="display" id="(\w+)"><span class="number">\((\d+)\)'
     assert [x[::-1] for x in re.findall(displays, page)] == numbered
     assert '<span class="ofnote">note (35)</span>' in page
@@ -255,11 +257,20 @@ def test_the_equations_that_are_cited_are_numbered_in_their_order_and_no_others(
     assert not any(e.label for e in solved)  # they may be left out
 
 
+def labels_of(tex):
+    """What is labelled in the LaTeX of a whole lecture, and the rows of the table of symbols that
+    are first used there."""
+    tex = tex.partition(r"\begin{document}")[2]
+    rows = [x for run in re.findall(r"\\firstuse{([\d,]+)}", tex) for x in run.split(",")]
+    figures = re.findall(r"\\begin{lecturefigure}{(\w+)}", tex)
+    return [*re.findall(r"\\label{([^}\\#]+)}", tex), *figures, *(f"letter-{x}" for x in rows)]
+
+
 def test_a_problem_may_be_called_as_a_theorem_is(records):
     """Its chapter does not take the number of the theorem."""
     named = [replace(c, name=c.name.replace("free_solid", "kirchhoff")) for c in CHAPTERS]
     tex = document.latex(document.Lecture(named, language("en"), records))
-    labels = re.findall(r"\\(?:label|numbered){([^}#]+)}", tex)
+    labels = labels_of(tex)
     assert "kirchhoff" in labels
     assert len({*labels}) == len(labels) > 100
 
@@ -274,7 +285,7 @@ def test_a_problem_may_be_called_as_a_chapter_is(records):
     tex = document.latex(
         document.Lecture([*CHAPTERS, replace(own, blocks=())], language("en"), records)
     )
-    labels = re.findall(r"\\(?:label|numbered)({[^}#]+)}", tex)
+    labels = labels_of(tex)
     assert len({*labels}) == len(labels)
 
 
@@ -290,8 +301,11 @@ def test_without_solutions(lang):
         assert mark in shown(form, lang)
         none = shown(form, lang, "none")
         assert mark not in none
-        named = {*re.findall(r'(?:id="|label\{)([^"}]+)', none)}
-        assert {*re.findall(r'(?:href="#|pageref\{|letterrow.*\{)(letter-\d+)', none)} <= named
+        named = {*(re.findall('id="([^"]+)', none) or labels_of(none))}
+        rows = re.findall(r"\\letterrow{.*{(\d+)}\n", none)
+        used = {*re.findall(r'href="#(letter-\d+)', none), *(f"letter-{x}" for x in rows)}
+        assert len(used) > 80
+        assert used <= named
 
 
 @pytest.mark.parametrize("lang", LANGUAGES)
