@@ -281,7 +281,7 @@ class _Setter:
             if not isinstance(x, Formula) or not x.condition or len(x.text) <= AMONG:
                 found += self.part(x)
                 continue
-            shown = formula(x.text) + formula_of_value(x.value)
+            shown = formula(x.text + x.value)
             if left and isinstance(left[0], str) and (sign := SIGNS.match(left[0])):
                 shown += literal(sign[0].strip())
                 left[0] = left[0][sign.end() :]
@@ -291,7 +291,7 @@ class _Setter:
     def part(self, x: str | Formula) -> str:
         """A formula, or words, of a sentence."""
         if isinstance(x, Formula):
-            return self.medium.inline(formula(x.text) + formula_of_value(x.value))
+            return self.medium.inline(formula(x.text + x.value))
         return self.medium.text(x) if isinstance(x, Given) else self.plain(x)
 
     def plain(self, words: str) -> str:
@@ -329,12 +329,6 @@ def formula(text: str) -> typeset.Formula:
         among = sign in "∈↦"
         found += literal(f" {SYMBOLS.get(sign, sign)} ") + (spelt(side) if among else _side(side))
     return found
-
-
-def formula_of_value(value: str) -> typeset.Formula:
-    """What stands behind a formula: a relation and a value; nothing where there is none."""
-    sign, _, text = value.strip().partition(" ")
-    return literal(f" {SYMBOLS.get(sign, sign)} ") + _side(text) if value else literal("")
 
 
 def _side(text: str) -> typeset.Formula:
