@@ -237,7 +237,7 @@ def test_the_latex_has_every_formula_with_the_marks_over_its_letters(lang):
 
 @pytest.mark.parametrize("lang", LANGUAGES)
 def test_a_display_ends_with_a_sign_and_a_product_is_broken_at_one(lang):
-    """A comma where its sentence goes on, a full stop where it ends; none before a word as "for"."""
+    """A comma where its sentence goes on, a full stop where it ends; neither before "for"."""
     tex = shown("latex", lang)
     assert r"(v_{i}) = F_{i}.\numbered" in tex
     assert r"- \tilde U,\ofnote" in tex
