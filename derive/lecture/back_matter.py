@@ -88,12 +88,8 @@ def homes(chapters: Sequence[Chapter], records: Mapping[str, Derivation]) -> dic
             if not any(label in steps[name] for name in places):
                 name = next(name for name in chapter.problems if label in steps[name])
                 # of a problem of the reader's as that was called
-                own = (
-                    name
-                    if chapter.of_course
-                    else name.replace(chapter.name, quote(chapter.file), 1)
-                )
-                places[name] = _printing(own)
+                called = chapter.name if chapter.of_course else quote(chapter.file)
+                places[name] = _printing(name.replace(chapter.name, called, 1))
     return {x: [*places.values()] for x, places in sorted(found.items())}
 
 

@@ -6,6 +6,7 @@ import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial, reduce
+from itertools import zip_longest
 from typing import Any
 
 from ..language.read import FormulaError
@@ -69,7 +70,8 @@ class Medium:
 AMONG = 60
 """The most letters of a formula of a record that stands among words."""
 SIGNS = re.compile(r"\s*[.,;:]")
-
+RUNS_ON = ("(in ", "(the ", "by ", "for ", "says ", "times ")
+"""How a text begins, in English, before which no sign ends a display."""
 
 SHORT, SIGN = 7.0, re.compile(r" \S+ ")
 """The width, in em, below which a formula among words is not broken, and where it might be."""
@@ -228,7 +230,7 @@ class _Setter:
     def block(self, b: Block, number: int) -> Set:
         """A block with its entries and the number of a statement, an exercise or a figure; the
         first entry of a figure describes its picture, for those who do not see it."""
-        entries = [*map(self.entry, b.entries)]
+        entries = [self.entry(x, y) for x, y in zip_longest(b.entries, b.entries[1:])]
         found: Set = {"kind": b.kind, "label": b.label, "title": self.medium.text(b.title)}
         found |= {"number": number, "entries": entries}
         if b.kind == "figure":
@@ -243,11 +245,11 @@ class _Setter:
         (description,) = b.entries[0].texts[self.at]
         return replace(scene, labels=tuple(labels), title=str(description))
 
-    def entry(self, x: Entry) -> Set:
+    def entry(self, x: Entry, behind: Entry | None) -> Set:
         """A sentence or a display with what stands in its margins; the label and the number of a
-        display that is cited."""
+        display that is cited. What is ``behind`` a display says which sign ends it."""
         return {
-            "text": self.display(x) if x.display else self.words(x.texts[self.at]),
+            "text": self.display(x, behind) if x.display else self.words(x.texts[self.at]),
             "display": x.display,
             "labels": x.labels,
             "open": tuple(self.medium.text(y.open[self.at]) for y in x.ties if y.open),
@@ -257,13 +259,17 @@ class _Setter:
             "number": self.numbers[x.label] if x.label else 0,
         }
 
-    def display(self, x: Entry) -> str:
-        """A display: formulas side by side."""
+    def display(self, x: Entry, behind: Entry | None) -> str:
+        """A display: formulas side by side, with a comma where their sentence goes on."""
         ((whole,), *_) = x.texts
         assert isinstance(whole, Formula)
         if whole.recorded:
             return self.medium.aligned(whole.shown or whole.recorded)
         parts = [formula(y) for y in re.split(r",\s\s+", whole.text)]
+        first = str(behind.texts[0][0]) if behind else ""
+        if not first.startswith(RUNS_ON):
+            goes_on = first[:1].islower() or (behind and behind.display)
+            parts[-1] += literal("," if goes_on else ".")
         return self.medium.display(reduce(lambda x, y: x + literal(r",\qquad ") + y, parts))
 
     def words(self, text: Words) -> str:
@@ -275,7 +281,7 @@ class _Setter:
             if not isinstance(x, Formula) or not x.condition or len(x.text) <= AMONG:
                 found += self.part(x)
                 continue
-            shown = formula(x.text) + formula_of_value(x.value)
+            shown = formula(x.text + x.value)
             if left and isinstance(left[0], str) and (sign := SIGNS.match(left[0])):
                 shown += literal(sign[0].strip())
                 left[0] = left[0][sign.end() :]
@@ -285,7 +291,7 @@ class _Setter:
     def part(self, x: str | Formula) -> str:
         """A formula, or words, of a sentence."""
         if isinstance(x, Formula):
-            return self.medium.inline(formula(x.text) + formula_of_value(x.value))
+            return self.medium.inline(formula(x.text + x.value))
         return self.medium.text(x) if isinstance(x, Given) else self.plain(x)
 
     def plain(self, words: str) -> str:
@@ -323,12 +329,6 @@ def formula(text: str) -> typeset.Formula:
         among = sign in "∈↦"
         found += literal(f" {SYMBOLS.get(sign, sign)} ") + (spelt(side) if among else _side(side))
     return found
-
-
-def formula_of_value(value: str) -> typeset.Formula:
-    """What stands behind a formula: a relation and a value; nothing where there is none."""
-    sign, _, text = value.strip().partition(" ")
-    return literal(f" {SYMBOLS.get(sign, sign)} ") + _side(text) if value else literal("")
 
 
 def _side(text: str) -> typeset.Formula:

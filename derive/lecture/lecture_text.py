@@ -54,7 +54,7 @@ KINDS = ("text", "section", *NUMBERED, "proof", "calculation", "solution", "figu
 """What a block may be; those of ``NUMBERED`` have a number of their own."""
 HEAD = re.compile(r'([a-z]+)(?: ([a-z_]+))?(?: "([^"]+)")?')
 NUMBERS = re.compile(r"\s*\((\d+(?:, \d+)*)\)$")
-RELATION = re.compile(r" [=≠<>≤≥∈↦→] ")
+RELATION = re.compile(r" [=≈≠<>≤≥∈↦→] ")
 FRESH = "  $ "
 LABELLED = re.compile(r"(?:@([a-z_]+) )?(.*)")
 ASKED = re.compile(r" ([=≈]) #([a-z]*)$")

@@ -253,9 +253,11 @@ def broken(tex: str, room: float) -> list[Line]:
 
 
 def indented(line: Line, quads: int) -> str:
-    """The LaTeX of a line that continues a formula, indented by ``quads`` and its depth."""
-    sign = "{}" if line.text[:1] in "+-" else ""
-    return r"\quad" * (quads + line.inside) + " " + sign + line.text
+    """The LaTeX of a line that continues a formula, indented by ``quads`` and its depth; a product
+    that is broken before a bracket has its sign there."""
+    tex = line.text.replace(r"\,(", r"\times (", 1) if line.text.startswith(r"\,(") else line.text
+    sign = "{}" if tex[:1] in "+-" else ""
+    return r"\quad" * (quads + line.inside) + " " + sign + tex
 
 
 def clause(e: Equation, names: Mapping[str, str], words: Quantifiers) -> str:
