@@ -17,7 +17,7 @@ from ..algebra.families import group
 from ..algebra.groups import Group
 from ..language.reserved import advected_entries
 from ..language.show import in_sentence, show
-from ..language.tree import Tree, add, mul
+from ..language.tree import Tree, add, mul, operands
 from ..record.record import Derivation, Equation, Step, Symbol
 from ..record.sentence import Prose, Sentence, phrase
 from .language import ENGLISH, Entry, Language, entries
@@ -40,6 +40,7 @@ class Reading:
         name = str(problem["group"])
         factors = group(name).factors if " x " in name else ()
         self.count = len(factors)
+        self.spans = [(at, at + x.size) for at, x in group(name).places] if factors else []
         self.named = (_entries(group(name)) if factors else {}) | _carried(problem)
         self.texts = {show(old): in_sentence(new) for old, new in self.named.items()}
         self.found = re.compile("|".join(rf"{re.escape(x)}(?!,?[₀-₉])" for x in self.texts))
@@ -50,7 +51,8 @@ class Reading:
             return t
         if t in self.named:
             return self.named[t]
-        return factored((t[0], *map(self.tree, t[1:])))
+        found = factored((t[0], *map(self.tree, t[1:])))
+        return _by_blocks(found, self.spans) if t[0] == "matrix" else found
 
     def equation(self, e: Equation) -> Equation:
         """An equation as it is read."""
@@ -115,6 +117,20 @@ def _entries(g: Group) -> dict[Tree, Tree]:
         for i in span
         for j in span
     }
+
+
+def _by_blocks(t: Tree, spans: Sequence[tuple[int, int]]) -> Tree:
+    """A matrix that is 0 outside of the blocks of the factors as diag of these; any other tree as
+    it is."""
+    rows = [[*operands(x)] for x in operands(t)]
+    size = spans[-1][1] if spans else 0
+    if [*map(len, rows)] != [size] * size or not rows:
+        return t
+    inside = {(i, j) for a, b in spans for i in range(a, b) for j in range(a, b)}
+    if any(x != 0 and (i, j) not in inside for i, r in enumerate(rows) for j, x in enumerate(r)):
+        return t
+    cut = ((("row", *r[a:b]) for r in rows[a:b]) for a, b in spans)
+    return ("call", "diag", *(("matrix", *x) for x in cut))
 
 
 def factored(t: Tree) -> Tree:
