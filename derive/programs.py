@@ -117,14 +117,17 @@ def trim(
     given: Mapping[str, float] | None = None,
     bounds: Bounds | None = None,
     along: Mapping[str, Number] | None = None,
-) -> tuple[Trim, Derivation]:
+) -> tuple[Trim, Derivation, Mapping[str, str]]:
     """The inputs and velocities ``free``, else all inputs that are not given, with which the
-    velocity of a state stays as it is, and the record of the problem with the step that tells them;
+    velocity of a state stays as it is, the record of the problem with the step that tells them, and
+    the units of inputs and of the state by name, where they are known;
     ``at``: numbers of the state and of inputs, else those of g = 1, and 0; parameters have their
     defaults, or what is ``given``; a trim that is out of ``bounds``, of numbers by name, is
     refused; ``along``: a velocity in space of which g sees its own."""
     from .code.options import Options
     from .code.program import LoweringError
+    from .motion.emitted_code import EmittedCode
+    from .motion.signals import units_of_inputs
     from .search.equilibria.trim_steps import told
     from .search.equilibria.trimmed import trimmed
     from .walk.chapter import Chapter
@@ -148,7 +151,9 @@ def trim(
         raise ProblemError(f"{problem.name}: {error}") from None
     c = Chapter(problem.name, problem.group_name)
     step = told(found, problem.own_group, record.steps, c)
-    return found, replace(record, steps=completed((*record.steps, step)))
+    columns = EmittedCode(made, record, problem).columns()
+    units = {x.name: x.unit for x in columns} | units_of_inputs(problem)
+    return found, replace(record, steps=completed((*record.steps, step))), units
 
 
 def untrimmed(problem: Problem) -> str:

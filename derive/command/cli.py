@@ -140,14 +140,15 @@ def command_equilibria(args: argparse.Namespace) -> int:
 def command_trim(args: argparse.Namespace) -> int:
     """Inputs and velocities that keep a state, and its stability."""
     from ..programs import trim
+    from .showing import trim_lines
 
     at, given = each_once("--at", args.at), each_once("--given", args.given)
     bounds, along = each_once("--bounds", args.bounds), each_once("--along", args.along)
     free = [name for x in args.free or () for name in x.split(",")] or None
     with working(args.problem):
         problem = doubted(args.problem, given=given)
-        _, record = trim(problem, at, free, given, bounds, along)
-    save_found(record, args)
+        found, record, units = trim(problem, at, free, given, bounds, along)
+    save_found(record, args, trim_lines(found, problem.own_group, units, args.lang))
     return 0
 
 

@@ -10,7 +10,7 @@ from collections import Counter
 from collections.abc import Mapping, Sequence
 from difflib import get_close_matches
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from ..algebra.families import FAMILIES
 from ..language.limits import Refused
@@ -21,6 +21,10 @@ from ..search import FIRST
 from ..views.printing.typeset import WIDTH
 from ..views.rendering import render, unprinted
 from .writing import as_in_a_file, one_line, show, write
+
+if TYPE_CHECKING:
+    from ..algebra.groups import Group
+    from ..search.equilibria.trim import Trim
 
 # The list of groups and ready-made problems that ``derive list`` prints.
 
@@ -167,24 +171,51 @@ def save_steps(
     *,
     answer: bool = False,
     by_block: Mapping[str, str] | None = None,
+    before: Sequence[str] = (),
 ) -> None:
     """Write some steps of a record, its answer with names ``by_block``, or all of it, as the
-    options of a command ask."""
+    options of a command ask; lines ``before`` stand at the head of a text."""
     chosen = {"fragment": args.fragment, "steps": steps, "answer": answer, **notation(args)}
     wide = columns(args.out)
     shown = render(record, args.format, args.lang, width=wide, by_block=by_block, **chosen)
     if args.format == "latex":
         warn_of_letters([record])
+    if args.format == "text" and before:
+        shown = "\n".join((*before, "", shown))
     save(shown, args.out, args.format, paged=not answer)
 
 
-def save_found(record: Derivation, args: argparse.Namespace) -> None:
+def save_found(record: Derivation, args: argparse.Namespace, before: Sequence[str] = ()) -> None:
     """Write the steps of a record that are asked for, else those that tell what the search of the
     command found; in JSON all, which can be checked."""
     steps: Sequence[Step] = steps_of(record, getattr(args, "labels", ()))
     if not steps and args.format != "json":
         steps = record.since(FIRST[args.command])
-    save_steps(record, steps, args)
+    save_steps(record, steps, args, before=before)
+
+
+SMALL = 1e-12
+"""A number of the state that is nearer to that of g = 1, or to 0, is not listed."""
+
+
+def trim_lines(found: Trim, group: Group, units: Mapping[str, str], lang: str) -> list[str]:
+    """A trim at a glance: the inputs, and what of the state is not that of g = 1 and rest, by the
+    names of the options, with their units, and its verdict."""
+    from ..search.equilibria.trim import entries_of
+    from ..views.language import language
+
+    words, places = language(lang), entries_of(group)
+    rows = {x: float(y) for x, y in found.inputs.items()}
+    for name, y in found.state.items():
+        here, (i, j) = float(y), places.get(name, (0, 1))
+        if abs(here - int(i == j)) > SMALL:
+            rows[name] = here
+    shown = [(x, words.decimal(y), units.get(x, "")) for x, y in rows.items()]
+    if found.verdict != "open":
+        growth = max(x.real for x in found.eigenvalues)
+        shown.append((words.word(found.verdict), f"Re λ ≤ {words.decimal(growth)}", "1/s"))
+    wide, wider = (max(len(x[k]) for x in shown) for k in (0, 1)) if shown else (0, 0)
+    return [f"  {name:{wide}}  {y:>{wider}}  {unit}".rstrip() for name, y, unit in shown]
 
 
 def steps_of(record: Derivation, labels: Sequence[str]) -> list[Step]:

@@ -215,7 +215,7 @@ def _table(
             near = did_you_mean(near_name(name, [*inputs]), after=" ").rstrip()
             has = ", ".join(inputs) or "none"
             raise MotionError(f"{where}: no input {name[:40]!r}; {near or f'there is {has}'}")
-    units = _units(problem)
+    units = {TIME: "s"} | units_of_inputs(problem)
     for name in {*said} & {*units}:
         same = said[name].replace(" ", "") == units[name].replace(" ", "")  # N m as Nm
         if not same and measured(said[name]) != measured(units[name]):
@@ -224,10 +224,10 @@ def _table(
     return table, where
 
 
-def _units(problem: Problem) -> dict[str, str]:
-    """The units of the time and of inputs, of those that are known: of a force or a torque along
-    numbers where the parameters are in units of SI."""
-    found = {TIME: "s"}
+def units_of_inputs(problem: Problem) -> dict[str, str]:
+    """The units of inputs, of those that are known: of a force or a torque along numbers where the
+    parameters are in units of SI."""
+    found: dict[str, str] = {}
     for x in problem.inputs if base_units(problem) >= {"kg", "m", "s"} else ():
         known = {"force": "N", "torque": "N m"}.get(x.kind)
         if known and not any(names(t) for t in getattr(x, "direction", None) or ()):

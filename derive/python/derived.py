@@ -158,7 +158,8 @@ class Derived(Recorded):
             x: (number_from(str(low)), number_from(str(high)))
             for x, (low, high) in (bounds or {}).items()
         }
-        return Trimmed(*trim(self.problem, values, free, given, allowed, turning))
+        found, record, _ = trim(self.problem, values, free, given, allowed, turning)
+        return Trimmed(found, record)
 
     def symmetries(self) -> SymmetriesOf:
         """All symmetries of L̃ of a kind, and what the motion keeps by each; ``ProblemError`` where

@@ -13,7 +13,7 @@ from unicodedata import normalize
 
 from ..language.reserved import advected_entries, by_letter
 from ..language.show import show
-from ..language.tree import Tree, add, coefficient, mul, names, neg, nodes, terms
+from ..language.tree import Tree, add, coefficient, mul, names, neg, nodes, replaced, terms
 from ..record.record import ANY_GROUP, Derivation, Equation, Step
 from ..record.sentence import Prose, Sentence
 from .language import ENGLISH, Language
@@ -52,11 +52,13 @@ def steps_of_answer(d: Derivation) -> tuple[Step, ...]:
 def equations_of_motion(d: Derivation) -> tuple[Equation, ...]:
     """The equations of the answer, without those of a vector whose entries are told."""
     solved, *expanded = steps_of_answer(d)
-    rates = {x for e in solved.equations for x in names(e.lhs)}
+    rates = {"ζ̇", *(x for e in solved.equations for x in names(e.lhs))}
     both = [e for step in expanded for e in step.equations if rates & {*names(e.lhs)}]
     told = [*{e.lhs: e for e in both}.values()]  # by the step that says most, where both tell it
     parts = [x for e in told for x in nodes(e.lhs) if isinstance(x, tuple)]
     in_entries = {x[1] for x in parts if x[0] == "entry"}
+    if "ζ̇" in in_entries:
+        in_entries |= {"ψ", "Ż"}  # what ζ̇ is read off
     return (*(e for e in solved.equations if e.lhs not in in_entries), *told)
 
 
@@ -80,7 +82,8 @@ def definitions(d: Derivation, equations: Sequence[Equation]) -> tuple[Equation,
         if x in seen:
             continue
         seen.add(x)
-        step, equation = d.definition(x) or d.definition(_any_member(x)) or (None, None)
+        whole, *of_member = _any_member(x)
+        step, equation = d.definition(x) or d.definition(whole) or (None, None)
         mine = step and (step in own or step.rule == "definition")
         if mine and equation and not equation.for_all:
             found = [] if equation.rhs == ("par", x) and x not in clashing(d) else [equation]
@@ -92,15 +95,16 @@ def definitions(d: Derivation, equations: Sequence[Equation]) -> tuple[Equation,
             found = members.get(family, []) if family not in told else []
             left += others
         known |= dict.fromkeys(found)
-        left += (e.rhs for e in found)
+        left += (replaced(e.rhs, "i", of_member[0]) if of_member else e.rhs for e in found)
     return tuple(known)
 
 
-def _any_member(x: Tree) -> Tree:
-    """A function of one member of a family as that of any: r₁(t) as r_i(t); else the tree."""
+def _any_member(x: Tree) -> tuple[Tree, ...]:
+    """A function of one member of a family as that of any, r₁(t) as r_i(t), and which member it
+    is; of another tree it alone."""
     if isinstance(x, tuple) and x[0] == "call" and isinstance(x[1], tuple) and x[1][0] == "at":
-        return ("call", ("at", x[1][1], "i"), *x[2:])
-    return x
+        return ("call", ("at", x[1][1], "i"), *x[2:]), x[1][2]
+    return (x,)
 
 
 def _told(equations: Sequence[Equation]) -> set[Tree]:

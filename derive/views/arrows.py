@@ -71,8 +71,8 @@ def arrows(d: Derivation) -> tuple[Arrow, ...]:
         found += _in_letters(d, "Z", TURNING, "turning")
     terms = {x.trees: x for x in _terms(d) if there & {*x.trees}}
     found += _momentum_of_lagrangian(d)
-    bodies = len(_factors(d)) > 1
-    loads = _in_letters(d, "β", WHOLE, "torque") if "β" in (there if bodies else told) else ()
+    moved = len(_factors(d)) > 1 or "w" in {s.name for s in d.symbols}
+    loads = _in_letters(d, "β", WHOLE, "torque") if "β" in (there if moved else told) else ()
     return (*found, *loads, *terms.values())[:MOST]
 
 

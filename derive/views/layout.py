@@ -10,14 +10,14 @@ import re
 from collections import Counter
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
-from itertools import groupby
+from itertools import groupby, product
 from typing import Any
 
 from ..algebra.families import group
 from ..algebra.groups import Group
 from ..language.reserved import advected_entries
 from ..language.show import in_sentence, show
-from ..language.tree import Tree, add, mul
+from ..language.tree import Tree, add, coefficient, mul, neg, operands, terms
 from ..record.record import Derivation, Equation, Step, Symbol
 from ..record.sentence import Prose, Sentence, phrase
 from .language import ENGLISH, Entry, Language, entries
@@ -30,6 +30,10 @@ from .printing.typeset import Formula, Line, fill, literal, measure, plain, text
 OF_G = ("A", "Ȧ")
 """The letters of matrices that have a block for each factor."""
 MEANING = "{meaning}; its blocks are {blocks}"
+LAST = "{meaning}; {last}: the last column of a matrix that acts on (r, 1)"
+ELEMENT = "element of the group"
+MOVED = re.compile(r"(R|SE)\(\d\)")
+"""Groups of one factor whose matrices may be those on (r, 1)."""
 CARRIED = "{meaning}; its components are {entries}"
 
 
@@ -38,9 +42,11 @@ class Reading:
 
     def __init__(self, problem: Mapping[str, Any]):
         name = str(problem["group"])
-        factors = group(name).factors if " x " in name else ()
-        self.count = len(factors)
-        self.named = (_entries(group(name)) if factors else {}) | _carried(problem)
+        known = group(name) if " x " in name or MOVED.fullmatch(name) else None
+        places = known.places if known and len(known.places) > 1 else ()
+        self.count = len(places)
+        self.spans = [(at, at + x.size) for at, x in places]
+        self.named = (_entries(known) if known else {}) | _carried(problem)
         self.texts = {show(old): in_sentence(new) for old, new in self.named.items()}
         self.found = re.compile("|".join(rf"{re.escape(x)}(?!,?[₀-₉])" for x in self.texts))
 
@@ -50,7 +56,8 @@ class Reading:
             return t
         if t in self.named:
             return self.named[t]
-        return factored((t[0], *map(self.tree, t[1:])))
+        found = factored(unfolded((t[0], *map(self.tree, t[1:]))))
+        return _by_blocks(found, self.spans) if t[0] == "matrix" else found
 
     def equation(self, e: Equation) -> Equation:
         """An equation as it is read."""
@@ -81,10 +88,17 @@ class Reading:
                 y for t, y in self.texts.items() if t.startswith("Γ") and OVERDOT not in t
             )
             return replace(x, meaning=(phrase(CARRIED, meaning=x.meaning[0], entries=entries),))
-        if x.name != "A" or not self.count:
+        if x.name != "A" or not str(x.meaning[0]).startswith(ELEMENT):
             return x
         blocks = ", ".join(show(("at", "A", k + 1)) for k in range(self.count))
-        return replace(x, meaning=(phrase(MEANING, meaning=x.meaning[0], blocks=blocks),))
+        columns = (show(t[1]) for t in self.named.values() if isinstance(t, tuple) and len(t) == 3)
+        last = ", ".join(x for x in dict.fromkeys(columns) if x.startswith("T"))
+        meaning = x.meaning[0]
+        if blocks:
+            meaning = phrase(MEANING, meaning=meaning, blocks=blocks)
+        if last:
+            meaning = phrase(LAST, meaning=meaning, last=last)
+        return replace(x, meaning=(meaning,))
 
 
 def as_read(d: Derivation) -> Derivation:
@@ -106,15 +120,42 @@ def _carried(problem: Mapping[str, Any]) -> dict[Tree, Tree]:
 
 
 def _entries(g: Group) -> dict[Tree, Tree]:
-    """Each entry of g by the rows and columns of the whole → by those of its block."""
-    spans = [(k, at, range(1, x.size + 1)) for k, (at, x) in enumerate(g.places, 1)]
-    return {
-        ("entry", letter, at + i, at + j): ("entry", ("at", letter, k), i, j)
-        for letter in OF_G
-        for k, at, span in spans
-        for i in span
-        for j in span
-    }
+    """Each entry of g by the rows and columns of the whole → by those of its block, of the last
+    column of one that moves (r, 1) by those of T."""
+    found: dict[Tree, Tree] = {}
+    for k, (at, x) in enumerate(g.places, 1):
+        span, last = range(1, x.size + 1), x.n + 1 if x.affine else 0
+        for letter, moved in zip(OF_G, ("T", "Ṫ"), strict=True):
+            several = len(g.places) > 1
+            block, column = (("at", y, k) if several else y for y in (letter, moved))
+            for i, j in product(span, repeat=2):
+                own = ("entry", column, i) if i < j == last else ("entry", block, i, j)
+                found["entry", letter, at + i, at + j] = own
+    return found
+
+
+def _by_blocks(t: Tree, spans: Sequence[tuple[int, int]]) -> Tree:
+    """A matrix that is 0 outside of the blocks of the factors as diag of these; any other tree as
+    it is."""
+    rows = [[*operands(x)] for x in operands(t)]
+    size = spans[-1][1] if spans else 0
+    if [*map(len, rows)] != [size] * size or not rows:
+        return t
+    inside = {(i, j) for a, b in spans for i in range(a, b) for j in range(a, b)}
+    if any(x != 0 and (i, j) not in inside for i, r in enumerate(rows) for j, x in enumerate(r)):
+        return t
+    cut = ((("row", *r[a:b]) for r in rows[a:b]) for a, b in spans)
+    return ("call", "diag", *(("matrix", *x) for x in cut))
+
+
+def unfolded(t: Tree) -> Tree:
+    """A sum without brackets around sums in it, and −(−a − b) as a + b; any other tree as it is."""
+    match t:
+        case ("add", *parts):
+            return ("add", *(y for x in parts for y in terms(x)))
+        case ("mul", -1, ("add", *parts)) if all(coefficient(x)[0] < 0 for x in parts):
+            return ("add", *map(neg, parts))
+    return t
 
 
 def factored(t: Tree) -> Tree:

@@ -69,7 +69,7 @@ def _whole(
     if form == "text" and not alone:
         return text.text(d, width, language=words)
     if form == "text":
-        own = text.clashing(d)
+        own = text.clashing(d, text.letters_of(d, words))
         listed = (text.step_text(x, width, language=words, quoted=own) for x in d.steps)
         return "\n".join(listed)
     from ..record.as_json import to_json

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import textwrap
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
@@ -9,6 +10,7 @@ from functools import partial
 from itertools import groupby
 
 from ..language.show import in_quotes, show, show_name, unclear
+from ..language.tree import names
 from ..record.record import Derivation, Equation, Step, Symbol
 from .language import ENGLISH, TABLE, Language, cell
 from .layout import blocks
@@ -117,6 +119,16 @@ def clashing(d: Derivation, letters: Iterable[str] | None = None) -> frozenset[s
     symbolic = isinstance(body, Mapping) and body.get("kind") == "moments"
     own = {"g", *(s.name for s in d.symbols)} if letters is None else {*letters}
     return unclear(own, named_numbers(d), symbolic)
+
+
+def letters_of(d: Derivation, language: Language) -> frozenset[str]:
+    """The letters that the steps of a record have, in their equations and as words of their
+    sentences that are symbols."""
+    sides = [t for s in d.steps for e in s.equations for t in (e.lhs, e.rhs)]
+    words = " ".join(QUOTED.sub("", language.of(s.prose)) for s in d.steps)
+    said = {*re.findall(r"\w+", words)}
+    symbols = ("g", *(s.name for s in d.symbols))
+    return frozenset(x for t in sides for x in names(t)) | said.intersection(symbols)
 
 
 def unquoted(words: str, quoted: frozenset[str]) -> str:

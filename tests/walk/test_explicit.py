@@ -123,6 +123,46 @@ def test_a_solid_with_products_of_inertia_is_solved():
     assert np.allclose(found, expected, rtol=1e-12)
 
 
+def test_a_body_and_its_load_on_a_spring_are_solved():
+    """Beside Newton's and Euler's laws, in floating point: four equal points, a thrust, and a load
+    that hangs on a spring."""
+    corners = [{"mass": "m", "at": x, "block": 1} for x in ([1, 0, 0], [-1, 0, 0], [0, 0, 1])]
+    hung = {"group": "SE(3) x R(3)", "parameters": {"m": 1.0, "M": 2.0, "k": 3.0, "g": 9.81}}
+    hung["point"] = [*corners, {"mass": "m", "at": [0, 0, -1], "block": 1}]
+    hung["point"] += [{"mass": "M", "at": [0, 0, 0], "block": 2}]
+    spring = {"kind": "spring", "between": [4, 5], "stiffness": "k", "length": 1}
+    hung["potential"] = [{"kind": "gravity", "g": [0, 0, "-g"]}, spring]
+    thrust = {"name": "f", "kind": "force", "at": [1, 0, 0], "block": 1, "frame": "body"}
+    hung["input"] = [thrust | {"direction": [0, 0, 1]}]
+    d = walk(problem_of({"name": "hung"} | hung))
+    random = np.random.default_rng(5)
+    A, _ = np.linalg.qr(random.normal(size=(3, 3)))
+    A *= np.linalg.det(A)
+    omega, v, rate, T, place = random.normal(size=(5, 3))
+    m, M, k, g, f = 1.3, 0.7, 2.1, 9.81, 0.4
+    inertia = m * np.diag([2.0, 4, 2])
+    hook = np.array([0, 0, -1.0])
+    ends = A @ hook + T - place
+    length = np.linalg.norm(ends)
+    pull, weight = -k * (length - 1) / length * ends, np.array([0, 0, -g])
+    moment = np.cross(hook, A.T @ pull) + np.cross([1, 0, 0], [0, 0, f])
+    turning = np.linalg.solve(inertia, moment - np.cross(omega, inertia @ omega))
+    moving = A.T @ (pull / (4 * m) + weight) + np.array([0, 0, f / (4 * m)]) - np.cross(omega, v)
+    expected = [*turning, *moving, *(weight - pull / M)]
+    known = {("par", x): y for x, y in (("m", m), ("M", M), ("k", k), ("g", g))}
+    known[("entry", ("at", "f_u", 1), 1)] = known["par", "f"] = f
+    known["at", "σ", 1] = -k * (length - 1) / length
+    for i in range(3):
+        known |= {("entry", "A", i + 1, j + 1): A[i, j] for j in range(3)}
+        known["entry", ("at", "d", 1), i + 1] = ends[i]
+        known |= {("entry", "A", i + 1, 4): T[i], ("entry", "A", i + 5, 8): place[i]}
+    for i, x in enumerate((*omega, *v, *rate), 1):
+        known["entry", "ζ", i] = x
+    found = [value(e.rhs, known) for e in answer(d).equations]
+    assert np.allclose(found, expected, rtol=1e-12)
+    assert all(x.holds for x in check(d, seed=3))
+
+
 def test_no_answer_names_what_it_solves_for():
     for name in ("gyrostat", "heisenberg", "rod", "su2"):
         for e in answer(ready(name)).equations:

@@ -314,7 +314,7 @@ def data(
         "adjusted": adjusted,
         **({"lost": True} if lost else {}),
         "curves": curves,
-        **({"outputs": [_reading(x, units[x]) for x in made.outputs]} if made.outputs else {}),
+        **(_readings(made.outputs, units) if made.outputs else {}),
         **({"signals": _signals(problem, made, begin.parameters)} if problem.signals else {}),
         **told,
         "body": body,
@@ -330,6 +330,10 @@ def data(
         "words": words,
         "comma": language.name == "fr",
     }
+
+
+READ = 9
+"""As many curves has a picture of what is read off the motion."""
 
 
 def _signals(problem: Problem, made: Program, numbers: Mapping[str, float]) -> list[Data]:
@@ -383,6 +387,14 @@ def _meaning(name: str, record: Derivation, language: Language, turning: bool) -
 def _unit(text: str) -> str:
     """A unit as it is shown."""
     return visible(text).replace("^2", "²").replace("^3", "³")
+
+
+def _readings(outputs: Sequence[str], units: Mapping[str, str]) -> dict[str, Any]:
+    """The names of what is read off the motion, and the places of those of one unit, some of each,
+    which have a picture of their own."""
+    of = {u: [i for i, x in enumerate(outputs) if units[x] == u] for u in map(units.get, outputs)}
+    names = [_reading(x, units[x]) for x in outputs]
+    return {"outputs": names, "panels": [x[:READ] for x in of.values()]}
 
 
 def _reading(name: str, unit: str) -> str:

@@ -205,7 +205,7 @@ def at_constant_time(e: Expr, *times: Letter) -> Expr:
 
 # M ζ̇ = β with short entries, solved where that stays short: by the blocks of M.
 
-LONGEST = 12
+LONGEST = 14
 """An equation with more terms than this is not written out."""
 MOST = 60
 """As many terms has an entry at most while rows are solved."""

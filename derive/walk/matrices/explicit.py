@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from itertools import chain
+from itertools import chain, product
 from math import prod
 from typing import Any
 
@@ -43,6 +43,8 @@ PAIRS = 60_000
 KEPT = ("σ", "P", "Q", "r_c")
 """What keeps its name, or its members theirs, where it is no polynomial or one longer than
 ``SHORT``."""
+ENDS = "d"
+"""The family of differences of places: where the answer is long, each keeps its name."""
 SHORT = 3
 UNKNOWN = (ArithmeticError, IndexError, KeyError, OverlongError, TypeError, ValueError)
 """What evaluation raises where a name has no value here, or no short one."""
@@ -51,10 +53,10 @@ UNKNOWN = (ArithmeticError, IndexError, KeyError, OverlongError, TypeError, Valu
 class PutIn:
     """Names and members of families with their values; ``size``: of the identity matrix."""
 
-    def __init__(self, known: Mapping[str, Value], size: int):
+    def __init__(self, known: Mapping[str, Value], size: int, opaque: str = ""):
         self.names: dict[str, Value] = {"π": Laurent.symbol("π"), "t": Laurent.symbol("t"), **known}
         self.families: dict[str, dict[int, Value]] = {}
-        self.one, self.pairs = q.identity(size), 0
+        self.one, self.pairs, self.opaque = q.identity(size), 0, opaque
 
     def member(self, family: str, k: int, value: Value) -> None:
         """Give a member of a family its value."""
@@ -82,7 +84,7 @@ class PutIn:
                 raise
             return named
         if head not in KEPT:
-            return found
+            return named if head == self.opaque else found
         if all(map(_is_short, _numbers_in(found))):
             return found
         if not isinstance(named, tuple):
@@ -193,7 +195,7 @@ def _is_short(x: Any) -> bool:
 
 
 LARGEST = 6
-"""The dimension of the largest group for which the answer is stated."""
+"""The dimension of the largest group, or factor of a product, whose answer is stated."""
 RULE = "evaluation"
 MOMENTS = ("N_P", "N_Q")
 """Of forces on points; where these are long the answer is by their entries."""
@@ -217,7 +219,8 @@ class Particulars:
     def wanted(self) -> bool:
         """Is something gained? Not where the moments are all letters."""
         letters = isinstance(self.problem.body, MomentBody)
-        return bool(self.body) and self.group.dimension <= LARGEST and not letters
+        small = all(x.dimension <= LARGEST for _, x in self.group.places)
+        return bool(self.body) and small and not letters
 
     def learnt_by(self, values: PutIn, motion: Step, *inertia: Step) -> None:
         """Let values know the moments of the body, then what potentials and inputs are made of."""
@@ -228,7 +231,7 @@ class Particulars:
         points = (*self.points, *inertia)
         values.learn(e for s in points for e in s.equations if e.lhs not in values.names)
         A = values.names["A"]
-        values.names["C"] = OPERATIONS["mul"](q.transposed(A), A)
+        values.names["C"] = _metric(self.group, A)
         outside = self.external.steps if self.external else ()
         values.learn(e for s in (*self.potentials.steps, *outside) for e in s.equations)
         values.learn(e for e in motion.equations if e.lhs in RATE_OF.values())
@@ -255,10 +258,14 @@ def of_matrices(
     if group.affine:
         known |= {x: symbols(x, n) for x in ("w", "ẇ")}
         rates += [("entry", "ẇ", i) for i in range(1, n + 1)]
-    values = PutIn(known | {"u": symbols("u", group.dimension)}, n)
-    own.learnt_by(values, motion)
-    for letters in ({}, {"C": square("C", n, symmetric=True)}, _moments_of_forces(values)):
-        values.names |= letters  # by A; by what of A enters; by what of the forces does
+    known["u"] = symbols("u", group.dimension)
+    whole, apart = (PutIn(known, n, opaque) for opaque in ("", ENDS))
+    for values in (whole, apart):
+        own.learnt_by(values, motion)
+    metric, moments = {"C": square("C", n, symmetric=True)}, _moments_of_forces(whole)
+    # by A; by what of A enters; by the differences of places; by what of the forces enters
+    for values, letters in ((whole, {}), (whole, metric), (apart, {}), (whole, moments)):
+        values.names.update(letters)
         try:
             inertial, load, work = (_along(group, map(values.of, x)) for x in (left, right, pulled))
             rows = [x - y for x, y in zip(inertial, load, strict=True)]
@@ -417,6 +424,16 @@ def _explicit_step(
     loads = (*stage.load, *(x for _, x in after))
     seen = _seen(replace(stage, load=loads), values, side)
     return (draft.step(equations, prose + seen),)
+
+
+def _metric(group: Group, A: Value) -> Value:
+    """C = ĀA, with the numbers that its entries are where a factor is orthogonal."""
+    found = [[*row] for row in OPERATIONS["mul"](q.transposed(A), A)]
+    for offset, factor in group.places:
+        own = range(offset, offset + factor.n) if skew(factor) else ()
+        for i, j in product(own, repeat=2):
+            found[i][j] = Laurent.of(int(i == j))
+    return q.matrix(found)
 
 
 def _orthogonality(group: Group, A: Value) -> list[tuple[Laurent, int]]:

@@ -86,9 +86,13 @@ function graph(scene, label, between) {
   } };
 }
 
-/* what is read off the motion, beside the body */
+/* what is read off the motion, beside the body: what has one unit together */
 function readings(scene) {
-  const { page } = scene, read = page.outputs;
+  const { page } = scene, said = page.words.readings;
   const values = (t, x) => page.module.outputs(t, x, scene.run.k, scene.u);
-  return { ...chart(scene, page.words.readings, [...read.keys()].slice(0, 9), read, values), shape: "side flat" };
+  const views = page.panels.map((of) => chart(scene, said, of, page.outputs, values));
+  for (const x of views) x.element.className = "flat";
+  return { element: make("div", { "aria-label": said }, ...views.map((x) => x.element)), draw() {
+    views.forEach((x) => x.draw());
+  }, shape: "" };
 }

@@ -5,7 +5,7 @@
  * t, tol: how long, how exact; entries: [row, column, place] of the element of the group in x, whose
  * order × order matrices have the basis, [row, column, entry] of each; names: { place: name } of what is
  * shown of x, adjusted: the places whose numbers can be set, curves: those drawn where no body is; lost: is the energy not kept?
- * outputs: the names of what is read off the motion, where there is some;
+ * outputs: the names of what is read off the motion, where there is some, panels: the places of those of one unit;
  * labels: { name: [meaning, unit] }; kept: { name: [words, unit] }; weightless: the names of what is kept
  * only where all of weight, trees, are 0; units: { t, energy }; body: see moving_body.py; words, comma }.
  * pieces: { stage, side, graph: what draws there; second: another motion beside this; turned_start; flattened, where a
