@@ -91,7 +91,9 @@ class Reader(ExpressionReader):
         """Read a list of names or numbers, or a size, where one stands here."""
         token, start = self.tokens[self.at], self.at
         named = token.text in DATA or token.text.startswith("N_")
-        if not named or (self.near(-1) != "const" and token.column != 0):
+        first = self.tokens[max(start - (self.near(-1) == "const"), 0)]
+        # N_u_56 of a function is a number of its own
+        if not named or (first.column != 0 and self.near(-2) not in ("export", "pub")):
             return False
         self.at += 1
         while self.near(1 - (self.at - start)) == ":" and self.word not in ("=", ""):

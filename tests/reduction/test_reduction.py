@@ -16,7 +16,7 @@ from derive.language.tree import mul
 from derive.problem.problem import ProblemError
 from derive.problem.toml import problem_of
 from derive.python.derived import derive
-from derive.record.sentence import english
+from derive.record.sentence import Claim, english
 from tests.oracles import routh
 from tests.readers.read import PAGES, faults
 from tests.support.reduced import reduced
@@ -163,6 +163,49 @@ def test_a_pivot_is_not_said_to_be_the_determinant(L, group, condition):
     words = english(stated(L, group).reduction().record["effective"].prose)
     assert condition in words
     assert "elsewhere the locked inertia" not in words
+
+
+@pytest.mark.parametrize(
+    ("metric", "bent"),
+    [
+        ("sin(T_1)", "cos(A₁₄)(ξ₁₄ ξ′₂₄ − ξ₂₄ ξ′₁₄)/2"),
+        ("exp(T_1)", "exp(A₁₄)(ξ₁₄ ξ′₂₄ − ξ₂₄ ξ′₁₄)/2"),
+        ("T_1^2", "A₁₄(ξ₁₄ ξ′₂₄ − ξ₂₄ ξ′₁₄)"),
+        ("atan(T_1)", ""),
+    ],
+)
+def test_the_curvature_where_the_metric_has_functions_of_the_element(metric, bent):
+    """𝒜 = dT₃ + ½ f(T₁) dT₂: d𝒜 = ½ f′ dT₁ ∧ dT₂; where f′ is no polynomial it is not told."""
+    L = f"(zeta_1^2 + zeta_2^2)/2 + zeta_3^2 + {metric}*zeta_2*zeta_3 - T_2^2"
+    found = stated(L, "R(3)").reduction()
+    assert all(v.holds for v in found.check())
+    told = [e for s in found.record.steps if s.label == "own.curvature" for e in s.equations]
+    assert [show(e.rhs) for e in told] == ([bent] if bent else [])
+
+
+def test_a_function_of_the_coordinate_is_no_polynomial_in_it():
+    """u̇² = 2(h − u − ½𝒥²)/(2 + sin u): no kind of integral is told, and none that is claimed
+    holds; a pivot with functions of g alone is a condition."""
+    found = stated("((2 + sin(T_1))*zeta_1^2 + zeta_2^2)/2 - T_1", "R(2)").reduction()
+    step = found.record["quadrature"]
+    assert [c.kind for c in step.claims] == ["reduction.quadrature"]
+    assert all(v.holds for v in found.check())
+    claimed = Claim("reduction.elementary", (("degree", 1),))
+    wrong = replace(step, claims=(*step.claims, claimed))
+    steps = tuple(x if x is not step else wrong for x in found.record.steps)
+    checked = check(replace(found.record, steps=steps), SEED)
+    assert [v.label for v in checked if not v.holds] == [step.label]
+    pivot = stated("(zeta_1^2 + (2 + sin(T_1))*zeta_2^2)/2", "R(2)").reduction()
+    assert "This holds where sin(A₁₃) + 2 ≠ 0" in english(pivot.record["effective"].prose)
+
+
+def test_a_curvature_that_is_long_is_not_sought():
+    """A turn of space, and one of a dipole in a field, on SE(3): minutes, of divisors alone."""
+    dipole = "A_33*(1 + T_3) - A_13*T_1/2 - A_23*T_2/2"
+    L = f"zeta_1^2 + zeta_2^2 + 2*zeta_3^2 + 3*(zeta_4^2 + zeta_5^2 + zeta_6^2) - T_3 + {dipole}"
+    found = stated(L, "SE(3)").reduction()
+    assert found.found.curvature is None
+    assert found.found.forms is not None
 
 
 RNG = np.random.default_rng(11)

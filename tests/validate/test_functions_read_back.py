@@ -33,6 +33,23 @@ from tests.support.needs import need
 
 SMALL = 2**40
 
+# -- what is not read back ------------------------------------------------------------------------
+
+
+def test_a_number_in_what_is_not_read_is_no_size():
+    """``const N_u_22 = …`` within a step in time, beside sizes as ``N_STATE``."""
+    points = "".join(
+        f"[[point]]\nmass = 1\nat = {at}\nblock = {b}\n"
+        for at, b in (("[0, 1]", 1), ("[1, 1]", 1), ("[1, 0]", 2))
+    )
+    force = '[[input]]\nname = "F"\nkind = "force"\non = 1\n[[damping]]\ncoefficient = 0.3\n'
+    made = Emission(
+        f'name = "own"\ngroup = "SE(2) x SO(2)"\n{points}{force}', READ, step=("gauss",)
+    )
+    assert made.files["own.mjs"].count("const N_u_22 = ") == 2
+    assert made.refused({}) == ""
+
+
 # -- to_matrix and from_matrix --------------------------------------------------------------------
 
 OWN = ("to_matrix", "from_matrix")

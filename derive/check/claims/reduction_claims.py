@@ -61,6 +61,8 @@ def _quadrature(c: ClaimedRecord, step: Step, claim: Claim) -> str:
         raise RecordError("the left side is no square of a rate")
     entry: Tree = ("entry", "A", *rate[1][2:])
     p = random_prime(c.random)
+    if any(entry in nodes(x) for x in _leaves(f) if x != entry):
+        return "the right side is no polynomial in the coordinate"
     at = drawn(_leaves(f), c.random, p)
     found = _interpolated(lambda x: value(f, {**at, entry: x}, p), p, LARGEST)
     degree, left = len(found) - 1, _odd_degree(found)
@@ -166,8 +168,8 @@ def _divisors(step: Step) -> tuple[Tree, ...]:
 
 
 def _varies(t: Tree) -> bool:
-    """Has a function entries of g, or of 𝕀?"""
-    return any(begins(x, "entry") for x in _leaves(t))
+    """Has a function entries of g, or of 𝕀, in its own functions too?"""
+    return any(begins(x, "entry") for x in nodes(t))
 
 
 def _conditions(c: ClaimedRecord, step: Step, claim: Claim) -> str:

@@ -142,14 +142,10 @@ def _degrees(
     alone.
     """
     U = r.functions.simplified(r.potential)
-    if any(
-        i < r.functions.first_entry and [*entries_in(r.functions.leaves[i])]
-        for i in r.functions.depends_on(U)
-    ):
-        return None
     by_letters = {None: r.functions.field(1)} | {x: -y for x, y in _by_momenta(r, U).items()}
     found = {x: slope * y for x, y in by_letters.items() if y}
-    if any(e[k] for x in found.values() for e in x.denom):
+    functions = r.functions.moving - {k}
+    if any(r.functions.depends_on(x) & functions or _degree_in(k, x.denom) for x in found.values()):
         return None
     of = r.functions.field
     whole = of(reduce(lambda x, y: x.lcm(y), (x.denom for x in found.values())))

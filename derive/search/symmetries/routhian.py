@@ -2,19 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property, reduce
+from itertools import combinations
 from operator import truediv
 from typing import Any
 
+from ...language.derivatives import derivative
 from ...language.tree import Tree, add, neg, nodes, plain, terms
 from ...problem.entries_on_orbit import EntriesOfElement, element
 from ...problem.fields import coordinates
 from ...problem.problem import ProblemError
 from .found_symmetries import SymmetriesFound
 from .scalar_lagrangian import full
-from .state_functions import Element, StateFunctions, entries_in
+from .state_functions import Element, StateFunctions, entries_in, leaves
 from .symmetry import Symmetry
 
 Vector = list[Element]
@@ -24,6 +26,9 @@ INVERTED = 3
 
 LONG = 14
 """Where a quotient in the elimination has more terms, entries of 𝕀 are called by their names."""
+
+LONGEST = 40
+"""A numerator of d𝒜 that has more terms, before anything divides it, is not told."""
 
 
 @dataclass(frozen=True)
@@ -57,6 +62,7 @@ class Routhian:
         self.names = [[inertia(i, j) for j, _ in enumerate(chosen)] for i, _ in enumerate(chosen)]
         fields = (y for x in chosen for m in x.matrices for row in m for y in row)
         trees = (L, *self.zeta, *fields, *(x for row in self.names for x in row))
+        trees += tuple(derivative(y, x) for y in leaves(L) for x in entries_in(y) if x != y)
         self.functions = StateFunctions(self.group, trees)
         of = self.functions.of
         if any(x.entries is None for x in chosen):
@@ -110,12 +116,11 @@ class Routhian:
                 kept.append(k)
         return tuple(kept)
 
-    def slopes(self, entry: Tree, moved: EntriesOfElement | None = None) -> Vector:
-        """The derivatives of an entry of g along the basis."""
-        assert isinstance(entry, tuple)
+    def slopes(self, leaf: Tree, moved: EntriesOfElement | None = None) -> Vector:
+        """The derivatives of an entry of g, or of a function of some, along the basis."""
         moved = moved or EntriesOfElement(self.group, self.problem.own_lagrangian.trivialisation)
         of = self.functions.of
-        return [of(moved.displaced(entry, a)) for a, _ in enumerate(self.zeta)]
+        return [of(moved.along(leaf, a)) for a, _ in enumerate(self.zeta)]
 
     def tree(self, x: Element, *beside: Tree) -> Tree:
         """A function on the group as a tree, times what stands beside it."""
@@ -178,10 +183,7 @@ class Routhian:
 
     def _varies(self, x: Element) -> bool:
         """Does a function depend on entries of g, or of 𝕀 by their names?"""
-        used = self.functions.depends_on(x)
-        return (
-            bool(used & self._named_entries) or max(used, default=-1) >= self.functions.first_entry
-        )
+        return bool(self.functions.depends_on(x) & (self.functions.moving | self._named_entries))
 
     @property
     def singular_elsewhere(self) -> bool:
@@ -298,33 +300,32 @@ class Routhian:
         forms = self.forms
         if forms is None:
             return None
-        of, span = self.functions.of, range(len(self.zeta))
+        of, field = self.functions, self.functions.field
+        moved = {k for row in forms for x in row for k in of.depends_on(x) & of.moving}
+        rates = {k: self.slopes(of.leaves[k]) for k in sorted(moved)}
+        if not all(x.denom.is_ground for row in rates.values() for x in row):
+            return None
+
+        def along(p: Any, a: int) -> Any:
+            slopes = (p.diff(k) * _polynomial(x[a]) for k, x in rates.items())
+            return sum(slopes, start=p.ring.zero)
+
         sign = 1 if self.problem.own_lagrangian.trivialisation == "left" else -1
-        table, along = self.group.structure_constants, self._along()
         found: list[dict[tuple[int, int], Element]] = [{} for _ in self.eta]
-        for a in span:
-            for b in range(a + 1, len(self.zeta)):
-                for i, own in enumerate(found):
-                    x = along(forms[b][i], a) - along(forms[a][i], b)
-                    for k in span:
-                        x = x - of(plain(sign * table[a][b][k])) * forms[k][i]
-                    x = self.functions.simplified(x)
-                    own |= {(a, b): x} if x else {}
+        for i, own in enumerate(found):
+            below = reduce(lambda x, y: x.lcm(y), (row[i].denom for row in forms))
+            form = [_polynomial(row[i] * below) for row in forms]
+            for a, b in combinations(range(len(form)), 2):
+                # of polynomials: a divisor is sought once, and where they are short
+                above = along(form[b], a) * below - along(below, a) * form[b]
+                above += along(below, b) * form[a] - along(form[a], b) * below
+                for k, c in enumerate(self.group.structure_constants[a][b]):
+                    above -= _polynomial(field(field.domain(sign * c))) * form[k] * below
+                if len(above) > LONGEST:
+                    return None
+                x = of.simplified(field(above) / field(below) ** 2)
+                own |= {(a, b): x} if x else {}
         return found
-
-    def _along(self) -> Callable[[Element, int], Element]:
-        """The derivative of a function of g along an element of the basis."""
-        leaves, first = self.functions.leaves, self.functions.first_entry
-        rates = {k: self.slopes(leaves[k]) for k in range(first, len(leaves))}
-
-        def along(x: Element, a: int) -> Element:
-            total = self.functions.field(0)
-            for k, slopes in rates.items():
-                if slopes[a] and any(e[k] for p in (x.numer, x.denom) for e in p):
-                    total = total + x.diff(self.functions.known[leaves[k]]) * slopes[a]
-            return total
-
-        return along
 
     # -- one degree of freedom -----------------------------------------------------------------
 
@@ -378,6 +379,11 @@ def _conjugated(x: Symmetry, functions: StateFunctions) -> list[Vector]:
 def _terms(x: Element) -> int:
     """How many terms a function has."""
     return len(x.numer) + len(x.denom) - 1
+
+
+def _polynomial(x: Element) -> Any:
+    """A function whose denominator is a number."""
+    return x.numer.quo_ground(x.denom.LC)
 
 
 def _paired(a: Sequence[Element], b: Sequence[Element]) -> Element:

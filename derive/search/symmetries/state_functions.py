@@ -41,7 +41,8 @@ def entries_in(t: Tree) -> list[Tree]:
 class StateFunctions:
     """The field of rational functions over Q in the leaves of some trees.
 
-    ``invariant``: entries of g that come first in normal forms.
+    ``invariant``: entries of g that come first in normal forms; ``moving``: the places of the
+    leaves that vary with g, its entries and functions of these.
     """
 
     def __init__(self, group: Group, trees: Iterable[Tree]):
@@ -53,6 +54,7 @@ class StateFunctions:
         self.group, self.places = group, places
         self.leaves = (*(x for x in found if x not in places), *places)
         self.first_entry = len(self.leaves) - len(places)
+        self.moving = {k for k, x in enumerate(self.leaves) if entries_in(x)}
         names = [f"x{k}" for k, _ in enumerate(self.leaves)]
         self.field, *generators = field(names, QQ)
         self.known: dict[Tree, Element] = dict(zip(self.leaves, generators, strict=True))
