@@ -49,9 +49,7 @@ LEAKING = {
     "name": "leaking",
     "group": "SE(2)",
     "point": [{"mass": "3 - t - t^2/8", "at": [1, 0]}, {"mass": 1, "at": [0, 1]}],
-    "flow": [
-        {"at": [2, 0], "rate": x, "velocity": [0, 1], "steady": True} for x in (-1, "-t/4")
-    ],
+    "flow": [{"at": [2, 0], "rate": x, "velocity": [0, 1], "steady": True} for x in (-1, "-t/4")],
 }
 """Whose flow inside is taken to be steady."""
 
