@@ -341,6 +341,17 @@ def _tetrahedron(c: ClaimedRecord, step: Step, claim: Claim) -> str:
     return "" if told == own else f"the group moves the points in {own} dimensions"
 
 
+def steady_flows(record: Derivation) -> list[int]:
+    """The flows of a problem, from 1, of which what flows inside is said to be steady."""
+    return [k for k, x in enumerate(record.problem.get("flows", ()), 1) if x.get("steady")]
+
+
+def _steady(c: ClaimedRecord, step: Step, claim: Claim) -> str:
+    """These flows are steady inside, by the problem: without that its equations have ṗ."""
+    known = steady_flows(c.record)
+    return "" if claim["flows"] == ("row", *known) else f"the problem says so of the flows {known}"
+
+
 ORBIT_JUDGES = {"tetrahedron.affine": _tetrahedron, "tetrahedron.linear": _tetrahedron}
 
 
@@ -355,7 +366,7 @@ class ClaimChecker(ClaimedRecord):
                 return "a claim of powers of numbers that are too large"
             reasons = (self._fault(step, claim) for claim in step.claims)
             found = fault(step.prose, step.claims) or next(filter(None, reasons), "")
-            return found or silent(step) or reduction_claims.missing(step)
+            return found or silent(step, self.record) or reduction_claims.missing(step)
         except IMPOSSIBLE as error:
             return f"a claim makes no sense: {type(error).__name__}"
 
@@ -383,10 +394,13 @@ OBLIGATORY = {
 """Rule → the claims of which each of its steps makes one: without it no claim is judged there."""
 
 
-def silent(step: Step) -> str:
-    """That a step makes none of the claims of its rule, or that the first momentum of a reduction
-    stands without the number of these; "" where all is claimed."""
+def silent(step: Step, record: Derivation) -> str:
+    """That a step makes none of the claims of its rule, that the first momentum of a reduction
+    stands without the number of these, or what acts without what is neglected; "" where all is
+    claimed."""
     wanted = OBLIGATORY.get(step.rule, ())
+    if step.rule == "input" and steady_flows(record):
+        wanted = ("input.flow_steady",)
     if any(e.lhs == ("at", "𝒥", 1) for e in step.equations):
         wanted = ("reduction.taken",)
     if not wanted or any(x.kind in wanted for x in step.claims):
@@ -408,6 +422,7 @@ JUDGES: dict[str, Judge] = {
     **reduction_claims.JUDGES,
     **claims_by_ranks.JUDGES,
     **ORBIT_JUDGES,
+    "input.flow_steady": _steady,
     **trim_claims.JUDGES,
     **enclosed_trims.JUDGES,
     **{kind: _of_symmetries(judge) for kind, judge in symmetry_count.JUDGES.items()},

@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
-from functools import cache, cached_property
+from functools import cache, cached_property, lru_cache
 from types import ModuleType
 from typing import Any
 
@@ -32,6 +32,13 @@ FLAT = 1e-8
 EXACT, LEAST = 1e-9, 1e-4
 """What is left of an explained difference, relative to the largest term; so much of that at least
 where the difference is small."""
+
+
+@lru_cache(maxsize=256)
+def constants(module: ModuleType, *numbers: float) -> Array:
+    """The constants of a code for its parameters; ``ValueError`` where no body has them."""
+    found: Array = module.constants([*numbers])
+    return found
 
 
 @dataclass(frozen=True)
@@ -80,8 +87,7 @@ class Balance:
     def k(self, values: Mapping[str, float], code: ModuleType | None = None) -> Array:
         """The constants for all parameters by name; ``ValueError`` where no body has them."""
         module = code or self.code
-        found: Array = module.constants([values[name] for name in module.PARAMETERS])
-        return found
+        return constants(module, *(values[name] for name in module.PARAMETERS))
 
     def values(self, own: Mapping[str, float] | None = None) -> dict[str, float]:
         """All parameters for those of the problem, some of which may be others."""
@@ -92,11 +98,6 @@ class Balance:
     @cached_property
     def _values(self) -> dict[str, float]:
         return self.values({})
-
-    @cached_property
-    def _constants(self) -> dict[int, Array]:
-        """The constants of its own numbers, by the code."""
-        return {}
 
     @cached_property
     def unexplained(self) -> Array:
@@ -227,9 +228,10 @@ class Balance:
         """Where a force acts, along the axes of the body; none where it is not at one place."""
         if table in self.opened.problem.potentials and table.kind == "gravity":
             return self.centre()
-        on = getattr(table, "on", None) or ()
+        on = getattr(table, "between", None) or getattr(table, "on", None) or ()
         ends = on if isinstance(on, tuple) else (on,)
         listed = (*self.opened.problem.points, *self.opened.problem.places)
+        ends = tuple(i for i in ends if self.block in (0, listed[i - 1].block))
         if len(ends) != 1 or not self.is_frame:
             return None
         at = [approximate(x, self.values(), float) for x in listed[ends[0] - 1].at]
@@ -256,9 +258,7 @@ class Balance:
     def bias(self, x: Array, u: Array, code: ModuleType | None = None) -> Array:
         """The bias b at some states and inputs, by the values of the problem."""
         module = code or self.code
-        if id(module) not in self._constants:
-            self._constants[id(module)] = self.k(self.values(), module)
-        found: Array = module.bias(self.t, x, self._constants[id(module)], u)
+        found: Array = module.bias(self.t, x, self.k(self._values, module), u)
         return found[:, self.part]
 
     def terms(self) -> Iterator[Term]:
@@ -271,13 +271,17 @@ class Balance:
 
     def _given_terms(self) -> Iterator[Term]:
         """What acts by each input and by each table of the problem."""
-        problem = self.opened.problem
+        problem, own = self.opened.problem, self.bias(self.x, self.u)
+
+        def given(x: Array) -> Array:
+            return own if x is self.x else self.bias(x, self.u)
+
         for i, name in enumerate(self.code.INPUTS):
             u = self.u.copy()
             u[:, i] = 0
 
             def pushed(x: Array, u: Array = u) -> Array:
-                return self.bias(x, u) - self.bias(x, self.u)
+                return self.bias(x, u) - given(x)
 
             table = next((x for x in problem.inputs if name in problem.numbers_of(x)), None)
             word, arm = _of(f"the input {name}"), self.arm(table)
@@ -293,7 +297,7 @@ class Balance:
 
                 # u is kept: what a force makes of an input is its own
                 def acting(x: Array, code: ModuleType = code) -> Array:
-                    return self.bias(x, self.u, code) - self.bias(x, self.u)
+                    return self.bias(x, self.u, code) - given(x)
 
                 about, arm = self._centre(table), self.arm(table)
                 part = self._acting(code)
@@ -313,7 +317,8 @@ class Balance:
         def square(part: slice) -> Array:
             return still - (at(part) + at(part, sign=-1.0)) / 2
 
-        yield Term(-still, _of("the force of the place in ℓ"))
+        resting = self._idle_at(rest, self._moving(slice(0)))
+        yield Term(-still, _of("the force of the place in ℓ"), of=resting)
         linear = (at(every) - at(every, sign=-1.0)) / 2
         yield Term(-linear, _of("what is linear in the velocity (gyroscopic)"))
         turning = len(self.rows["moment"])
@@ -347,11 +352,13 @@ class Balance:
     def of_momentum(self) -> Part | None:
         """What is left of b without inputs, forces and potentials."""
         rest = self._bare()
-        if rest is None:
-            return None
+        return None if rest is None else self._idle_at(rest, self.x)
+
+    def _idle_at(self, rest: ModuleType, x: Array) -> Part:
+        """The bias of the code on which nothing acts, at some states."""
 
         def part(values: Mapping[str, float]) -> Array:
-            found: Array = rest.bias(self.t, self.x, self.k(values, rest), 0 * self.u)
+            found: Array = rest.bias(self.t, x, self.k(values, rest), 0 * self.u)
             return found[:, self.part]
 
         return part

@@ -13,6 +13,7 @@ import numpy as np
 from .balance import Balance, Part, Term, exact
 from .cross_products import through
 from .inertia_operators import of_added_mass, of_blocks
+from .left_out import left_out
 from .newton_euler import (
     IN_MASS,
     of_axes,
@@ -53,6 +54,8 @@ def hypotheses(b: Balance, terms: list[Term]) -> Iterator[Hypothesis]:
     yield from of_masses_held(b, terms)
     yield from of_newton_euler(b, terms)
     yield from of_terms(b, terms)
+    for term in left_out(b):
+        yield from of_term(b, term, views(b)[0])
 
 
 def of_terms(
@@ -417,7 +420,7 @@ def of_tables(b: Balance) -> Told:
     more = {**dict.fromkeys(base, 0.0), **b.operator}
     for own in groups.values():
         values, here = dict(base), b.unexplained
-        for _ in range(TURNS if own else 0):
+        for turn in range(TURNS if own else 0):
             slopes = []
             for name in own:
                 step = 1e-6 * max(abs(values[name]), 1e-3)
@@ -430,7 +433,8 @@ def of_tables(b: Balance) -> Told:
             change = np.linalg.lstsq(np.stack(slopes, axis=1), -here.ravel(), rcond=1e-9)[0]
             values |= {x: values[x] + float(y) for x, y in zip(own, change, strict=True)}
             there = possible(b, values)
-            if there is None:
+            # near a solution each step leaves far less
+            if there is None or (turn > 1 and not _halved(there, here)):
                 break
             here = there
             if exact(here, size) and exact(b.checked(here, b.mass(values)), size):
@@ -439,3 +443,8 @@ def of_tables(b: Balance) -> Told:
                 two = {x: (base[x] + more[x], values[x] + more[x]) for x in changed}
                 return [told(words[x], *two[x], every) for x in changed]
     return []
+
+
+def _halved(left: Array, before: Array) -> bool:
+    """Is there half as much left as before, at most?"""
+    return bool(np.abs(left).sum() <= NEARER * np.abs(before).sum())

@@ -14,9 +14,10 @@ import numpy as np
 
 from ..code.naming import plain_text, typed
 from ..language.show import show
-from ..language.tree import Tree, nodes, replaced, sized
+from ..language.tree import Tree, add, mul, nodes, replaced, sized
 from ..problem.fields import velocity_at_place
 from ..schema.force_kinds import StatedForce
+from ..schema.kind import Parameter
 from .balance import EXACT, Balance, Term
 from .cross_products import cross, hats, through, turning
 from .opened import called
@@ -255,9 +256,8 @@ def of_frames(b: Balance, terms: list[Term], name: Callable[[str], str]) -> Iter
         if np.abs(np.subtract(taken, own)).max() > least:
             said.append((f"the velocity in {{}} is {axes}", taken, np.asarray))
             said.append((f"the velocity and the numbers of {{}} are {axes}", taken, out))
-    parts = zip(
-        ("moment", "force"), zip(*map(couple_and_force, own, arms), strict=True), strict=True
-    )
+    moments, forces = zip(*map(couple_and_force, own, arms), strict=True)
+    parts = (("moment", moments), ("force", forces))
     kinds = [kind for kind, x in parts if np.abs(x).max() > least]
     for kind, (words, values, to) in product(("", *(kinds if len(kinds) > 1 else ())), said):
         numbers = kinds[0] if len(kinds) == 1 else kind
@@ -266,6 +266,15 @@ def of_frames(b: Balance, terms: list[Term], name: Callable[[str], str]) -> Iter
         each = zip(own, values, arms, strict=True)
         others = [changed_force(x, y, arm, kind, to) for x, y, arm in each]
         yield Hypothesis(told, 0, b.unexplained - np.subtract(others, own).sum(axis=0))
+    for frame, R in (("space", A), ("the body", back)):
+        more = sum(
+            (cross(arm, turned(R)(x) - x) for x, arm in zip(forces, arms, strict=True)),
+            0 * moments[0],
+        )
+        told = (
+            f"the force of {name('')} is along the axes of {frame} in its moment by the arm alone"
+        )
+        yield Hypothesis(told, 0, b.unexplained - np.hstack([more, 0 * forces[0]]))
     if all(x.arm is None for x in terms) and b.turns().shape[-1] == len(b.rows["moment"]) == 3:
         yield from of_coupled(b, [at for at, _ in placed], np.sum(own, axis=0), name(""))
 
@@ -337,26 +346,36 @@ def of_speeds(b: Balance, term: Term) -> Iterator[Hypothesis]:
 def of_sizes(b: Balance) -> Iterator[Hypothesis]:
     """In a force each |x| is x, or 1: c x² for c x|x|, or what is linear for what is quadratic."""
     problem = b.opened.given
-    listed = problem.forces
-    for i, table in enumerate(listed):
+    forces, sizes = list(problem.forces), list[tuple[int, Tree, Tree]]()
+    for i, table in enumerate(forces):
         trees = {key: getattr(table, key) for key in table.expressed}
-        inside = (y for own in trees.values() for t in own for y in nodes(t))
-        sizes = {y: x for y in inside if (x := sized(y)) is not None}
-        for these in ([x] for x in sizes) if len(sizes) < 2 else (*([x] for x in sizes), sizes):
+        inside = dict.fromkeys(y for own in trees.values() for t in own for y in nodes(t))
+        # what is inside another |x| is less deep
+        for y in sorted(inside, key=lambda y: -len(str(y))):
+            if (x := sized(y)) is not None:
+                own, of_x, of_one = (("par", f"{w}_{len(sizes)}_") for w in ("own", "x", "one"))
+                other = add(mul(own, y), mul(of_x, x), of_one)
+                trees = {k: tuple(replaced(t, y, other) for t in own) for k, own in trees.items()}
+                sizes.append((i, y, x))
+        forces[i] = replace(table, **trees)
+    letters = [f"{w}_{k}_" for k in range(len(sizes)) for w in ("own", "x", "one")]
+    parameters = {**problem.parameters, **{x: Parameter() for x in letters}}
+    fewer = {"forces": tuple(forces), "parameters": parameters}
+    code = b.without(fewer, "sizes", problem) if sizes else None
+    if code is None:
+        return
+    for i in dict.fromkeys(i for i, *_ in sizes):
+        here = [k for k, x in enumerate(sizes) if x[0] == i]
+        for these in ([k] for k in here) if len(here) < 2 else (*([k] for k in here), here):
             for one in (False, True):
-                other = dict(trees)
-                for y in these:
-                    x = 1 if one else sizes[y]
-                    other = {k: tuple(replaced(t, y, x) for t in own) for k, own in other.items()}
-                forces = (*listed[:i], replace(table, **other), *listed[i + 1 :])
-                # its own numbers: those of our code are parameters
-                code = b.without({"forces": forces}, f"{[*these]} {one} {i}", problem)
-                if code is None:
-                    continue
-                names = [_as_asked(b, table, sizes[y]) for y in these]
+                values = {**b.values(), **{x: float(x.startswith("own")) for x in letters}}
+                values |= {f"own_{k}_": 0.0 for k in these}
+                values |= {f"{'one' if one else 'x'}_{k}_": 1.0 for k in these}
+                names = [_as_asked(b, problem.forces[i], sizes[k][2]) for k in these]
                 said = ", ".join(f"{1 if one else x} stands for |{x}|" for x in names)
-                left = b.unexplained + b.bias(b.x, b.u, code) - b.bias(b.x, b.u)
-                yield Hypothesis(f"in {called(problem, table)} {said}", 0, left)
+                other = code.bias(b.t, b.x, b.k(values, code), b.u)[:, b.part]
+                left = b.unexplained + other - b.bias(b.x, b.u)
+                yield Hypothesis(f"in {called(problem, problem.forces[i])} {said}", 0, left)
 
 
 def _as_asked(b: Balance, table: Any, x: Tree) -> str:

@@ -231,6 +231,8 @@ def called(problem: Problem, table: Table) -> str:
     if table in problem.inputs:
         return f"the input {table.plain()['name']}"
     acting = (*problem.forces, *problem.damping)
+    if getattr(table, "table", "") == "flow":
+        return "what flows inside"
     for word in ("force", "damping", "flow"):
         tables = [x for x in acting if (getattr(x, "table", "") or x.section).startswith(word)]
         if table not in tables:

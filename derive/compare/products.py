@@ -26,7 +26,7 @@ def blocks(b: Balance) -> list[Balance]:
     """The factors of a product that differ, each by itself; none where the mass matrix couples
     them."""
     group, first, found = b.opened.problem.group, 0, list[Balance]()
-    if not group or not group.factors or b.a.shape[1] < group.dimension:
+    if not group or len(group.places) < 2 or b.a.shape[1] < group.dimension:
         return found
     M, size, E = b.mass(b.values()), b.size(), np.asarray(b.code.BASIS)
     coupled = np.abs(M).max(axis=0)

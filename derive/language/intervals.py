@@ -217,6 +217,18 @@ def signs_of_real_parts(f: Sequence[Interval]) -> Literal["negative", "positive"
     return "positive" if grows else "unknown"
 
 
+def root_near(f: Sequence[Interval], re: Fraction, im: Fraction) -> Fraction | None:
+    """The square of n |f/f′| at re + i im, so far from which a polynomial of degree n, given from
+    the highest power, has a root; ``None`` where f′ may be 0 there."""
+    value, slope = (f[0], Interval.of(0)), (Interval.of(0), Interval.of(0))
+    for c in f[1:]:
+        (a, b), (x, y) = slope, value
+        slope = a * re - b * im + x, a * im + b * re + y
+        value = x * re - y * im + c, x * im + y * re
+    above, below = (x**2 + y**2 for x, y in (value, slope))
+    return Fraction(above.high * (len(f) - 1) ** 2, below.low) if below.low > 0 else None
+
+
 SHIFTS = range(-24, 12)
 """Powers of two: a root whose real part is larger than one of these is seen."""
 

@@ -321,10 +321,6 @@ class FileReader(ForceReader):
         """An expression of the state, the parameters and the time."""
         return self.in_time(self.value(slot), slot.path)
 
-    def flag(self, slot: Slot) -> bool:
-        """True or false."""
-        return bool(self.value(slot, bool))
-
     # -- moments, solids, rotations ------------------------------------------------------------
 
     def first(self, slot: Slot) -> Vector:

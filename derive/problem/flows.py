@@ -9,7 +9,8 @@ J̇ − Σ ṁ r r̄ by continuity, by Coriolis' forces −2ζ ∧ v and by −d
 flows has no angular momentum of its own about the origin (no swirl). In a product this is said of
 the body of each block. A rate that inputs say has
 no rate of its own: the mass is a number of the state then, and ṗ may not depend on such a rate, as
-where mass leaves from where it is. It is the balance of momentum
+where mass leaves from where it is, or ṗ is neglected, as textbooks do: of a steady flow inside the
+force of unsteadiness is 0 (Meirovitch). It is the balance of momentum
 of a control volume (W. T. Thomson, Equations of motion for the variable mass system, AIAA J. 4
 (1966); L. Meirovitch, General motion of a variable-mass flexible rocket with internal flow, J.
 Spacecraft 7 (1970)).
@@ -152,6 +153,12 @@ def _of_block(
             f"body{where}; give its mass as that expression of t, as m0 - b*t for the rate -b"
             + (f", or as what has {stored[0]} in it" if stored else "")
         )
+    steady = {bool(x.steady) for x in listed.values()}
+    if len(steady) > 1:
+        raise ProblemError(
+            f"flow {first}, steady: what flows inside a body has one momentum, and all [[flow]] "
+            "tables of this body say alike if it is steady"
+        )
     return _within(b, [*listed.values()], moments, reader, rates, inputs)
 
 
@@ -200,15 +207,18 @@ def _within(
     Q = {(i, j): left(moments.J[i][j], i, j) for i, j in pairs(span, span) if not shifts}
     if not any(p) and not any(Q.values()):
         return ()
-    for name in (z for y in p for z in names(y)):
+    steady = any(x.steady for x in flows)
+    for name in (z for y in p for z in names(y) if not steady):
         if name not in reader.parameters and _of_inputs(name, inputs):
             raise ProblemError(
                 f"flow 1, at: what flows there from where the mass is has a momentum with {name!r} "
-                "in it, an input, whose rate would push; let the mass leave from where it is, 'on' "
-                "its point, or give rates as expressions of t"
+                "in it, an input, whose rate would push; neglect that of a flow which is steady "
+                "inside, as textbooks do, by steady = true in its [[flow]]; or let the mass leave "
+                "from where it is, 'on' its point, or give rates as expressions of t"
             )
+    unsteady = [0 if steady else neg(_collected(rate(y, rates))) for y in p]
     if shifts:
-        return (_at_origin(reader, b, tuple(neg(_collected(rate(y, rates))) for y in p)),)
+        return () if steady else (_at_origin(reader, b, tuple(unsteady)),)
     turning = angular_velocity(reader.moving(), b)
     trace = _collected(add(*(Q[i, i] for i in span)))
     if len(span) == 2:
@@ -221,9 +231,7 @@ def _within(
             add(neg(mul(trace, turning[i])), *(mul(Q[i, j], turning[j]) for j in span))
             for i in span
         )
-    force = tuple(
-        add(mul(-2, x), neg(_collected(rate(y, rates)))) for x, y in zip(across, p, strict=True)
-    )
+    force = tuple(add(mul(-2, x), y) for x, y in zip(across, unsteady, strict=True))
     return (_at_origin(reader, b, force if any(p) else (), moment if any(Q.values()) else ()),)
 
 

@@ -184,6 +184,13 @@ def _eigenvalues(x: Tree) -> str:
     return ", ".join(" ".join(x) or "0" for x in parts)
 
 
+def _complex(x: Tree) -> str:
+    """The same of numbers that come with their conjugates."""
+    assert isinstance(x, tuple)
+    pairs = ((_decimal(re), _decimal(im)) for _, re, im in x[1:])
+    return ", ".join(re if im == "0" else f"{re} ± {im}i" for re, im in pairs)
+
+
 def _nonzero(x: Tree) -> str:
     """Several expressions that must not vanish."""
     assert isinstance(x, tuple)
@@ -222,6 +229,7 @@ TEXTS = dict.fromkeys((f"family.{x}" for x in FAMILIES), _inequalities) | {
     "trim.near_turned.entries": _coordinates,
     "trim.near_turned_on_the_left.entries": _coordinates,
     "trim.near_velocity.entries": _coordinates,
+    "trim.near_eigenvalues.eigenvalues": _complex,
     "equilibrium.eigenvalues": _eigenvalues,
     "enclosure.eigenvalues": _eigenvalues,
     "reduction.isotropy": _nonzero,

@@ -25,8 +25,9 @@ from .table import (
 Along = Annotated[Row | None, Key("direction", 1, trees=True)]
 Couple = Annotated[Row | None, Key("couple", 1, trees=True)]
 TurningBlock = Annotated[int, Key("turning", keys=("block",))]
+Steady = Annotated[bool | None, Key("flag")]
 """What a number is the multiple of, a vector that is not 0; a moment, three numbers, or one in the
-plane; a block of rotations of the plane or of R³."""
+plane; a block of rotations of the plane or of R³; true or false."""
 
 
 class CovectorInput(Table):
@@ -219,14 +220,16 @@ def acting_kind(table: Any) -> type[StatedForce] | type[StatedCovector]:
 class Flow(Nameable):
     """Mass that comes to a place of the body, or leaves there: the ``rate`` dm/dt, below 0 where it
     leaves, and its ``velocity`` relative to the body, along the axes of this; ``mass``: the number
-    of the state that the mass is, where inputs say the rate."""
+    of the state that the mass is, where inputs say the rate; ``steady``: is the rate ṗ of the
+    momentum of what flows inside neglected?"""
 
     section, timed = "flow", True
-    may: ClassVar[tuple[str, ...]] = ("name", "mass")
+    may: ClassVar[tuple[str, ...]] = ("name", "mass", "steady")
     on: End
     rate: Scalar
     velocity: Vector
     mass: Named = None
+    steady: Steady = None
 
     @classmethod
     def word(
@@ -236,11 +239,13 @@ class Flow(Nameable):
         velocity: Sequence[Number] | None = None,
         name: str | None = None,
         mass: str | None = None,
+        steady: bool | None = None,
     ) -> Any:
         """Mass that flows at a point or a place of the body: dm/dt, below 0 where it leaves, and
         its velocity relative to the body; expressions of t and inputs; with a name in the
-        equations; ``mass``: the parameter that the mass is, a number of the state then."""
-        told = {"name": name, "rate": rate, "velocity": velocity, "mass": mass}
+        equations; ``mass``: the parameter that the mass is, a number of the state then;
+        ``steady``: the rate ṗ of the momentum of what flows inside is neglected."""
+        told = {"name": name, "rate": rate, "velocity": velocity, "mass": mass, "steady": steady}
         return {**told, **place(on, None)}
 
 

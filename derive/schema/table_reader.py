@@ -173,6 +173,10 @@ class TableReader(ABC):
         """One of those that the key may have."""
         return self.choice(slot, slot.about.words)
 
+    def flag(self, slot: Slot) -> bool:
+        """True or false."""
+        return bool(self.value(slot, bool))
+
     def unit(self, slot: Slot) -> str:
         """A unit, which may stand at the head of a column."""
         found = self.text(slot)

@@ -34,7 +34,8 @@ from .chart import Chart, Numbers, StateChart
 from .compare import SIZE, Agreement, Comparison, compare
 from .exact_points import NAME as INTEGRALS
 from .exact_points import Claims, largest
-from .read_file import LANGUAGES, Beside, calls_of_cpp, read
+from .functions_of_state import require_defaults
+from .read_file import LANGUAGES, Beside, calls_of_cpp, defaults_of_cpp, read
 from .straight_line import error_checks
 from .syntax import SYNTAX, tokens
 from .terms import CodeError, DiffersError, Module
@@ -226,7 +227,7 @@ class EmittedFiles:
             judge = partial(self._on_torus, on_torus)
         else:
             judge = partial(self._compared, Comparison, Claims(d, self.chart, SIZE), whole)
-        return [self._report(names, judge) for names in self._groups()]
+        return [self._report(names, judge, d) for names in self._groups()]
 
     def _groups(self) -> Iterator[tuple[str, ...]]:
         """The names of files read together: a header with its source, others one by one."""
@@ -237,7 +238,7 @@ class EmittedFiles:
             elif name != source or header not in self.files:
                 yield (name,)
 
-    def _report(self, names: tuple[str, ...], judge: Judge) -> Report:
+    def _report(self, names: tuple[str, ...], judge: Judge, d: Derivation) -> Report:
         ending = names[-1].removeprefix(self.prefix)
         language = LANGUAGES.get(ending)
         unread = {"_steps.h": UNSTEPPED}.get(ending, "" if language else UNREAD)
@@ -249,7 +250,7 @@ class EmittedFiles:
             return Report(names, f"cannot be read back: {gone[0]} is empty or missing", holds=False)
         try:
             if language == "cpp":
-                return Report(names, CALLED + ", ".join(self._calls(names[-1])), read=False)
+                return Report(names, CALLED + ", ".join(self._calls(names[-1], d)), read=False)
             verdict = judge(names)
         except DiffersError as error:
             return Report(names, f"DIFFERS: {error}", holds=False)
@@ -267,9 +268,12 @@ class EmittedFiles:
             text += f"; {UNCHECKED}"
         return Report(names, text)
 
-    def _calls(self, name: str) -> Sequence[str]:
-        """The functions of C that C++ calls; ``DiffersError`` where it is not what is emitted."""
+    def _calls(self, name: str, d: Derivation) -> Sequence[str]:
+        """The functions of C that C++ calls; ``DiffersError`` where it is not what is emitted, or
+        its defaults are not those of the record."""
         found = calls_of_cpp(name, self.files[name], self.prefix)
+        listed, defaults = defaults_of_cpp(name, self.files[name], self.prefix)
+        require_defaults(listed, defaults, d.problem["parameters"])
         if self.fresh is not None:
             require_same(*(words_of(x[name]) for x in (self.files, self.fresh)))
         return found

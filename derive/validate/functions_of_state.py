@@ -392,6 +392,16 @@ class MomentumFunctions(FunctionsCalled):
         return self.plain.numbers(name, {**self.given, **changed}, len(self.point.rates))
 
 
+def require_defaults(
+    listed: Sequence[str], found: Mapping[str, Any], declared: Mapping[str, Any]
+) -> None:
+    """``DiffersError`` where the defaults of the parameters are not those of the record."""
+    recorded = {x: declared[x]["default"] for x in listed}
+    defaults = {x: value for x, value in recorded.items() if value is not None}
+    if {x: float(y) for x, y in found.items()} != defaults:
+        raise DiffersError("the defaults of the parameters are not those of the record")
+
+
 def compare_names(m: Module, claims: Claims) -> None:
     """``DiffersError`` where one of the lists is not what record and chart make it."""
     called = names_by_block(claims.group)
@@ -420,9 +430,7 @@ def compare_names(m: Module, claims: Claims) -> None:
     for what, size in sizes.items():
         if m.sizes.get(what, size) != size:
             raise DiffersError(f"the size {what} is {m.sizes[what]}, not {size}")
-    recorded = {x: declared[x]["default"] for x in listed}
-    defaults = {x: value for x, value in recorded.items() if value is not None}
-    if m.defaults is not None and {x: float(y) for x, y in m.defaults.items()} != defaults:
-        raise DiffersError("the defaults of the parameters are not those of the record")
+    if m.defaults is not None:
+        require_defaults(listed, m.defaults, declared)
     if m.basis is not None and m.basis != claims.state.group.basis:
         raise DiffersError("the basis is not that of the record")

@@ -154,6 +154,21 @@ def calls_of_cpp(name: str, text: str, prefix: str) -> tuple[str, ...]:
     return tuple(found)
 
 
+def defaults_of_cpp(name: str, text: str, prefix: str) -> tuple[tuple[str, ...], dict[str, Any]]:
+    """The parameters that a header of C++ lists, and their defaults; none where it has none."""
+    tables, reader = dict[str, Any](), Reader("c", tokens(SYNTAX["c"], text, name), prefix)
+    for i, token in enumerate(reader.tokens):
+        reader.at = i
+        if (
+            token.text in ("parameter_names", "defaults")
+            and reader.near(1) == reader.near(2) == "{"
+        ):
+            reader.at += 2
+            tables[token.text] = reader.value()
+    listed = tables.get("parameter_names", ())
+    return listed, by_name(listed, tables["defaults"]) if "defaults" in tables else {}
+
+
 def words(name: str, files: Mapping[str, str], prefix: str) -> Iterator[Token]:
     """The words of a file, after those of the header that it includes, without directives."""
     if not files.get(name):

@@ -45,6 +45,14 @@ DIVIDED = {
 }
 """Whose locked inertia has an inverse also where a pivot of its elimination vanishes."""
 
+LEAKING = {
+    "name": "leaking",
+    "group": "SE(2)",
+    "point": [{"mass": "3 - t - t^2/8", "at": [1, 0]}, {"mass": 1, "at": [0, 1]}],
+    "flow": [{"at": [2, 0], "rate": x, "velocity": [0, 1], "steady": True} for x in (-1, "-t/4")],
+}
+"""Whose flow inside is taken to be steady."""
+
 MOVED = ("ball", "spatial", "driven", "spiral", "landau")
 """Problems whose symmetries together move time, space and bodies in every way that has a name."""
 
@@ -77,6 +85,7 @@ RECORDS = {
     "curved": lambda: derive("euler_top").reduction().record,
     "divided": lambda: derive(problem_of(DIVIDED)).reduction().record,
     "a flat body": lambda: walk(problem_of(tomllib.loads(PROBLEMS["a flat body"]))),
+    "a steady flow": lambda: walk(problem_of(LEAKING)),
     "symmetries": lambda: derive("lagrange_top").symmetries().record,
     "a rod": lambda: derive("rod").symmetries().record,
     "a function": lambda: derive("gas_cloud").symmetries().record,

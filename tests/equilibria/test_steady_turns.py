@@ -1,5 +1,6 @@
 """Steady turns: motions exp(tY)g of which Y is given, and g is found with its inputs."""
 
+import tomllib
 from dataclasses import replace
 from fractions import Fraction
 
@@ -171,3 +172,33 @@ def test_that_a_turn_is_isolated_is_by_what_is_seen():
     ]
     assert not faults[0]
     assert "others may do so" in faults[1]
+
+
+STANDING = """
+name = "standing"
+group = "SO(2) x R(2)"
+[[point]]
+mass = 1
+at = [1, 0]
+[[point]]
+mass = 1
+at = [0, 0]
+block = 2
+[[potential]]
+kind = "expression"
+U = "r2_x^4 - r2_x + r2_y^2"
+[[force]]
+on = 2
+frame = "space"
+force = ["-hypot(v_1, v_2)*v_1", "-hypot(v_1, v_2)*v_2"]
+"""
+
+
+@pytest.mark.parametrize("turns", [True, False])
+def test_what_has_no_turn_does_not_circle_with_the_rest(turns):
+    """Its speed is 0 then; and where nothing circles, another reason is told."""
+    at = problem_of(tomllib.loads(STANDING))
+    along = {"zeta_1": 0.7} if turns else None
+    told = r"R\(2\) of block 2 has no turn, and stands still" if turns else "as the speed of what"
+    with pytest.raises(ValueError, match=told):
+        derive(at).trim(free=["eta_2", "eta_3"], along=along)

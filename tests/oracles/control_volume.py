@@ -10,7 +10,8 @@ import numpy as np
 class Leaking:
     """Points at places of a body along its axes in R³, and what leaves at its exits: functions of
     the time, the masses of the former and their rates, the rates and the velocities of the latter
-    relative to the body; ``g``: the acceleration of gravity in space."""
+    relative to the body; ``g``: the acceleration of gravity in space; ``steady``: has the momentum
+    of what flows inside, relative to the body, no rate?"""
 
     places: np.ndarray
     exits: np.ndarray
@@ -19,6 +20,7 @@ class Leaking:
     rates: Callable
     velocities: Callable
     g: tuple = (0, 0, -9.81)
+    steady: bool = False
 
     def unbalanced(self, t, A, spin, speed, d_spin, d_speed):
         """What is left of the balances of angular and linear momentum, along the axes of a body in
@@ -31,7 +33,8 @@ class Leaking:
 
         def momenta(s):
             w, v, m = spin + (s - t) * d_spin, speed + (s - t) * d_speed, self.masses(s)
-            flowing = self.mass_rates(s) @ places - self.rates(s) @ exits
+            at = t if self.steady else s
+            flowing = self.mass_rates(at) @ places - self.rates(at) @ exits
             turning = sum(x * np.cross(r, np.cross(w, r)) for x, r in zip(m, places, strict=True))
             linear = m.sum() * v + np.cross(w, m @ places) + flowing
             return np.concatenate([turning + np.cross(m @ places, v), linear])

@@ -277,13 +277,13 @@ b = 0.1
 mass = "a"
 at = ["b", 0.3]
 """
-ABSENT = {"c": "NAN", "rust": "f64::NAN", "julia": "Float64(NaN)"}
+ABSENT = {"c": "NAN", "cpp": "NAN", "rust": "f64::NAN", "julia": "Float64(NaN)"}
 
 
 @pytest.mark.parametrize("language", ABSENT)
 def test_a_parameter_without_a_default_is_none_in_the_table(language):
     made = Emission(BARE, [language])
-    file = f"bare{ENDS[language]}"
+    file = f"bare{ENDS.get(language, '.hpp')}"
     table = f"    {ABSENT[language]}, 0.1,\n"
     assert not made.refused({})
     for other in (table.replace(ABSENT[language], "0.0"), f"    0.1, {ABSENT[language]},\n"):

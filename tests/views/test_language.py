@@ -181,6 +181,11 @@ OWN = [
         "flow": [{"on": 1, "mass": "fuel", "rate": "-gas", "velocity": [0, 1]}],
     },
     {
+        "group": "SE(2)",
+        "point": [{"mass": "2 - t", "at": [1, 0]}, {"mass": 1, "at": [0, 1]}],
+        "flow": [{"at": [2, 0], "rate": -1, "velocity": [0, 1], "steady": True}],
+    },
+    {
         "group": "SO(2)",
         "point": [{"mass": 2, "at": [1, 0]}],
         "input": [{"name": "gas", "kind": "scalar"}],

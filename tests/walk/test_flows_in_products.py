@@ -52,8 +52,10 @@ FIRST = np.array([[0.1, 0.2, 1], [1, 0, 0], [0, 1, -1], [-1, 0.5, -0.3]])
 SECOND = np.array([[0, 0.4, 0.3], [0, -0.7, 1], [0, -0.2, -1]])
 
 
-def bodies(throttle, fuel, at):
-    """Both as control volumes, without gravity; ``at``: the time at which there is this fuel."""
+def bodies(throttle, fuel, at, steady):
+    """Both as control volumes, without gravity; ``at``: the time at which there is this fuel;
+    ``steady``: does the second lose it away from its tank, by a flow inside whose ṗ is neglected?
+    """
     one = Leaking(
         FIRST,
         np.array([[0.3, -0.2, -2], [0, 1, -1]]),
@@ -66,19 +68,26 @@ def bodies(throttle, fuel, at):
     lost = -B * throttle
     other = Leaking(
         SECOND,
-        np.array([[0, 0.4, 0.3], [0, 0.5, 0.9]]),
+        np.array([[0, *(AWAY if steady else [0.4, 0.3])], [0, 0.5, 0.9]]),
         lambda t: np.array([fuel + (t - at) * lost, 3 + np.sin(2 * t), 2 + 0 * t]),
         lambda t: np.array([lost + 0 * t, 2 * np.cos(2 * t), 0 * t]),
         lambda t: np.array([lost + 0 * t, 2 * np.cos(2 * t)]),
         lambda t: np.array([[0, throttle, -U], [0, 1, -t]]),
         (0, 0, 0),
+        steady,
     )
     return one, other
 
 
+AWAY = [0.1, -0.6]
+
+
 @cache
-def made():
-    return problem_of(PAIR)
+def made(steady=False):
+    *first, valve, last = PAIR["flow"]
+    valve = {k: x for k, x in valve.items() if k != "on"} | {"at": AWAY, "block": 2}
+    second = [x | {"steady": True} for x in (valve, last)]
+    return problem_of(PAIR | {"flow": [*first, *second]} if steady else PAIR)
 
 
 def turned(rng, n):
@@ -95,16 +104,17 @@ def drawn(rng):
     return (A1, T1, v1), (A2, T2, v2), fuel, x
 
 
-def test_each_body_loses_momentum_with_what_leaves_it_alone():
+@pytest.mark.parametrize("steady", [False, True])
+def test_each_body_loses_momentum_with_what_leaves_it_alone(steady):
     """What is left of the balances is what the potential pulls with at its points."""
-    m, rng = module_of(made()), np.random.default_rng(3)
+    m, rng = module_of(made(steady)), np.random.default_rng(3)
     assert m.STATE[-1] == "fuel"
     k = m.constants(arrange(m, NUMBERS))
     for _ in range(5):
         (A1, T1, v1), (A2, T2, v2), fuel, x = drawn(rng)
         t, throttle = rng.uniform(0, 3), rng.uniform(0.2, 2)
         found = m.rhs(t, x, k, [throttle])
-        one, other = bodies(throttle, fuel, t)
+        one, other = bodies(throttle, fuel, t, steady)
         r1, r5 = A1 @ FIRST[0] + T1, A2 @ SECOND[0][1:] + T2
         f1 = A1.T @ [-STIFF * r1[0] * r5[1], 0, 0]
         f5 = A2.T @ [0, -STIFF * r1[0] ** 2 / 2]
@@ -117,8 +127,9 @@ def test_each_body_loses_momentum_with_what_leaves_it_alone():
         assert found[-1] == pytest.approx(-B * throttle, rel=1e-14)
 
 
-def test_the_record_holds_and_a_forged_one_does_not():
-    record = derive.derive(made()).record
+@pytest.mark.parametrize("steady", [False, True])
+def test_the_record_holds_and_a_forged_one_does_not(steady):
+    record = derive.derive(made(steady)).record
     assert all(v.holds for v in own_verdicts(record))
     for which in (0, 2, 3):
         for key in ("rate", "velocity"):

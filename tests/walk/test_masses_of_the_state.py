@@ -9,12 +9,14 @@ import numpy as np
 import pytest
 
 import derive
-from derive.check.checker import Checker
+from derive.check.checker import Checker, ClaimChecker
 from derive.command.cli import main
 from derive.language.tree import add, nodes
 from derive.problem.toml import doubts, problem_of
 from derive.record.as_json import from_json, to_data
+from derive.record.prose import message
 from derive.record.record import RecordError
+from derive.record.sentence import Claim, english
 from tests.oracles import relative_error
 from tests.oracles.control_volume import Leaking
 from tests.support.library import arrange, module_of
@@ -73,9 +75,18 @@ def on(what, rocket=TANK):
     return rest | {"body": {"given": given}, "flow": flows}
 
 
+STEADY = TANK | {
+    "flow": [
+        {k: x for k, x in y.items() if k != "on"} | {"at": at, "steady": True}
+        for y, at in zip(TANK["flow"], timed.EXITS.tolist(), strict=True)
+    ]
+}
+"""Through a nozzle that is away from the tank, as the throttle says: ṗ is neglected."""
+
+
 @cache
-def made(what):
-    problem = problem_of(on(what))
+def made(what, steady=False):
+    problem = problem_of(on(what, STEADY if steady else TANK))
     return problem, module_of(problem, jacobian="raw")
 
 
@@ -89,9 +100,10 @@ def drawn(m, what, rng, t):
     return np.concatenate([A.ravel(), place, velocity, [rng.uniform(3, 12)]]), A, velocity
 
 
+@pytest.mark.parametrize("steady", [False, True])
 @pytest.mark.parametrize("what", GROUPS)
-def test_momentum_is_lost_with_what_leaves_alone(what):
-    _, m = made(what)
+def test_momentum_is_lost_with_what_leaves_alone(what, steady):
+    _, m = made(what, steady)
     assert m.STATE[-1] == "fuel"
     assert m.PARAMETERS == ("b", "u")
     rng, k = np.random.default_rng(3), m.constants(arrange(m, NUMBERS))
@@ -111,9 +123,10 @@ def test_momentum_is_lost_with_what_leaves_alone(what):
         def velocities(s, gimbal=gimbal):
             return np.array([[gimbal, gimbal * (1 + s), -timed.SPEED], [s, 0, timed.SPEED]])
 
-        exits = [timed.PLACES[0], timed.EXITS[1]]
+        exits = timed.EXITS if steady else [timed.PLACES[0], timed.EXITS[1]]
         laws = masses, mass_rates, lambda s, own=mass_rates: own(s)[:2], velocities
-        body, rate = Leaking(timed.PLACES, exits, *laws), found[-1 - len(velocity) : -1]
+        body = Leaking(timed.PLACES, exits, *laws, steady=steady)
+        rate = found[-1 - len(velocity) : -1]
         left, size = body.unbalanced_of(t, A, velocity, rate)
         assert np.abs(left).max() < 1e-12 * size
 
@@ -144,9 +157,10 @@ def flat(rocket):
     return rocket | {"group": "R(3)"}
 
 
+@pytest.mark.parametrize("steady", [False, True])
 @pytest.mark.parametrize("what", GROUPS)
-def test_the_record_holds_and_a_forged_one_does_not(what):
-    record = derive.derive(made(what)[0]).record
+def test_the_record_holds_and_a_forged_one_does_not(what, steady):
+    record = derive.derive(made(what, steady)[0]).record
     assert all(v.holds for v in own_verdicts(record))
     told = [dict(x) for x in record.problem["flows"]]
     told[0]["rate"] = ["mul", -2, ["par", "b"]]
@@ -160,6 +174,41 @@ def test_the_record_holds_and_a_forged_one_does_not(what):
             less = add(*terms[:j], *terms[j + 1 :])
             forged = (*step.equations[:k], replace(e, rhs=less), *step.equations[k + 1 :])
             assert not checker.check(replace(step, equations=forged)).holds, (k, j)
+
+
+def test_a_steady_flow_in_a_space_that_only_shifts():
+    """m v̇ = F + ṁu."""
+    m, rng = module_of(problem_of(flat(STEADY))), np.random.default_rng(9)
+    x, t, throttle, gimbal = rng.normal(size=7), 0.7, 0.8, 0.3
+    x[-1] = 5
+    rates = [-timed.RATE * throttle * (1 + x[-1] / 20), np.cos(t) / 4]
+    velocities = np.array([[gimbal, gimbal * (1 + t), -timed.SPEED], [t, 0, timed.SPEED]])
+    whole = x[-1] + timed.masses(t)[1:].sum()
+    found = m.rhs(t, x, m.constants(arrange(m, NUMBERS)), [throttle, gimbal])
+    known = np.array([0, 0, -timed.G]) + rates @ velocities / whole
+    assert np.allclose(found, [*x[3:6], *known, rates[0]], rtol=0, atol=1e-13)
+
+
+@pytest.mark.parametrize("what", ["SE(3)", "moments", "SE(2)"])
+def test_what_is_neglected_is_said_and_no_other_record_says_it(what):
+    """Neither may the sentence be left out, nor what it says be another; and with ṗ there are
+    other equations."""
+    record = derive.derive(made(what, True)[0]).record
+    step, claims = record["input"], ClaimChecker(record, 7)
+    (own,) = step.claims
+    assert own == Claim("input.flow_steady", (("flows", ("row", 1, 2)),))
+    assert "is taken to be steady" in english(step.prose)
+    assert not claims.fault(step)
+    silent = tuple(x for x in step.prose if x.message != message(own.kind))
+    assert "input.flow_steady" in claims.fault(replace(step, claims=(), prose=silent))
+    told = [{k: x for k, x in y.items() if k != "steady"} for y in record.problem["flows"]]
+    forged = replace(record, problem={**record.problem, "flows": told})
+    assert not stands(forged, "input")
+    assert "the problem says so of the flows []" in ClaimChecker(forged, 7).fault(step)
+    data = to_data(record)
+    data["problem"]["flows"][0]["steady"] = 2
+    with pytest.raises(RecordError, match="steady"):
+        from_json(json.dumps(data))
 
 
 @pytest.mark.parametrize("what", ["SE(3)", "SO(2)"])
@@ -190,10 +239,12 @@ def test_what_acts_changes_the_energy_at_masses_that_are_held(what):
 FORMS = ["", "--attitude quaternion", "--velocity tangent", "--layout col", "--dynamics"]
 
 
+@pytest.mark.parametrize("steady", [False, True])
 @pytest.mark.parametrize("form", FORMS)
-def test_every_form_and_language_is_read_back(form, tmp_path):
+def test_every_form_and_language_is_read_back(form, steady, tmp_path):
     path = tmp_path / "rocket.toml"
-    path.write_text(ROCKET, encoding="utf-8")
+    text = ROCKET.replace("on = 1", "at = [0, 0, -2]\nsteady = true") if steady else ROCKET
+    path.write_text(text, encoding="utf-8")
     words = ["emit", str(path), *form.split(), "--validate", "--out", str(tmp_path)]
     languages = ("python", "c", "rust", "julia", "javascript") if not form else ("c",)
     assert main([*words, *(x for name in languages for x in ("--lang", name))]) == 0
@@ -348,7 +399,9 @@ def test_at_a_rate_of_time_so_may_the_first():
 WRONG = {
     'mass = "fuel"\nrate -> rate': "flow 1, rate: 'throttle' is an input, so that the mass",
     'mass = "fuel"\nrate -> mass = "fule"\nrate': "flow 1, mass: 'fule' is not declared",
-    "on = 1\nmass -> at = [0, 0, -2]\nmass": "has a momentum with 'throttle' in it",
+    "on = 1\nmass -> at = [0, 0, -2]\nmass": "by steady = true in its [[flow]]",
+    "on = 1 -> on = 1\nsteady = 1": "flow 1: key 'steady' must be true or false",
+    "[[flow]] -> [[flow]]\non=2\nsteady=true\nrate=0\nvelocity=[0,0,0]\n[[flow]]": "say alike",
     "fuel = 60.0 -> fuel = 60.0, fuel_dot = 1.0": "parameter 'fuel_dot': the rate of a mass",
     '-9.81] -> "-fuel"]': "potential 1: 'fuel' is a mass, a number of the state",
     'at = [0, 0, 0] -> at = [0, 0, "fuel"]': "point 1, at: fuel: a place of the body does not move",

@@ -21,6 +21,7 @@ from ...language.intervals import (
     UnknownSignError,
     characteristic,
     krawczyk,
+    root_near,
     signs_of_real_parts,
 )
 from ...language.rational import Matrix
@@ -308,10 +309,29 @@ def _verdict(c: ClaimedRecord, step: Step, claim: Claim) -> str:
     return "" if claim.kind == found else f"what follows is: {found}"
 
 
+def _eigenvalues(c: ClaimedRecord, step: Step, claim: Claim) -> str:
+    """Within the radius of each number is a root of the characteristic polynomial, and of no two
+    the same; so many others are there."""
+    f, told, r = _of_step(c, step).polynomial, claim["eigenvalues"], _radius(claim)
+    if not isinstance(told, tuple) or len(told) < 2:
+        raise RecordError("no eigenvalues are told")
+    numbers = [(value_of(re), value_of(im)) for _, re, im in told[1:]]
+    for k, (re, im) in enumerate(numbers):
+        if not isinstance(re, Fraction) or not isinstance(im, Fraction) or not (not im or im > r):
+            raise RecordError("an eigenvalue is two fractions, the second not near 0, or 0")
+        if any((a - re) ** 2 + (b - im) ** 2 <= 4 * r**2 for a, b in numbers[:k]):
+            return "two are near one another"
+        if (near := root_near(f, re, im)) is None or near > r**2:
+            return "that one is within the radius is not proved"
+    others = len(f) - 1 - sum(1 + bool(im) for _, im in numbers)
+    return "" if claim["others"] == others else f"{others} others are there"
+
+
 JUDGES: dict[str, Judge] = {
     **dict.fromkeys(POINTS, _at),
     **dict.fromkeys(("trim.near_turned", "trim.near_turned_on_the_left"), _turned),
     "trim.near_velocity": _velocity,
     **dict.fromkeys(VERDICTS.values(), _verdict),
+    "trim.near_eigenvalues": _eigenvalues,
 }
 """How claims about enclosed trims are judged."""

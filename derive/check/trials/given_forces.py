@@ -234,15 +234,18 @@ def _flowing_inside(model: Body, block: int, Z: Matrix, env: Environment) -> Flo
     at = group.of_block(block) if group.factors else slice(None)
     own = tuple(row[at] for row in Z[at])
     first, second = _moments(model, block, env)
-    push, on = q.scaled(Fraction(-1), first), 1 + model.blocks.index(block)
+    push, on, steady = q.scaled(Fraction(-1), first), 1 + model.blocks.index(block), False
     for x in model.problem["flows"]:
         if model.blocks[x["on"] - 1] == block:
+            steady = x.get("steady", False)
             place = model.points[x["on"] - 1][at]
             gone = integral(_value(x["rate"], env), step)
             push = q.plus(push, q.scaled(gone, q.column(place)))
             second = q.minus(second, q.scaled(gone, outer_sum([place], [place])))
     p, Q = q.scaled(Fraction(-1), _part(push, ETA)), _part(second, ETA)
-    inside = q.plus(q.scaled(Fraction(-2), q.times(own, p)), _part(push, ETA | EPS))
+    inside = q.scaled(Fraction(-2), q.times(own, p))
+    if not steady:
+        inside = q.plus(inside, _part(push, ETA | EPS))
     turning = q.scaled(Fraction(-1, 2), q.plus(q.times(own, Q), q.times(Q, own)))
     within, moments = (
         q.transposed(tuple(group.in_block(block, x) for x in q.transposed(y)))

@@ -10,11 +10,13 @@ real part, by Routh's scheme, of that of all rates.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
 
+from ...language.intervals import characteristic, root_near
 from ...language.rational import times
 from ...language.univariate import Number, RealRoots, grows, real_roots
 from ..integrals.all_integrals import IntegralsFound
@@ -196,3 +198,20 @@ def eigenvalues(a: Matrix) -> tuple[complex, ...]:
     if not a:
         return ()
     return (*map(complex, np.linalg.eigvals(np.array(a, dtype=float))),)
+
+
+def eigenvalues_within(a: Matrix) -> tuple[Fraction, list[tuple[Fraction, Fraction]]]:
+    """Of a matrix of intervals a radius, and numbers, their imaginary parts not negative, within it
+    of each of which, and of its conjugate, is an eigenvalue, as is proved."""
+    found = [x for x in eigenvalues(a) if x.imag >= 0]
+    power = max((math.ceil(math.log10(abs(x))) for x in found if x), default=0)
+    radius, told = Fraction(10) ** (min(max(power, 0), 5) - 6), list[tuple[Fraction, Fraction]]()
+    f = characteristic(a)
+    for x in found:
+        re, im = (round(Fraction(y) * 100 / radius) * radius / 100 for y in (x.real, x.imag))
+        im = im if im > radius else Fraction(0)
+        near = root_near(f, re, im)
+        apart = all((a - re) ** 2 + (b - im) ** 2 > 4 * radius**2 for a, b in told)
+        if near is not None and near <= radius**2 and apart:
+            told.append((re, im))
+    return radius, sorted(told, reverse=True)

@@ -13,6 +13,7 @@ from ...record.sentence import Prose
 from ...walk.chapter import Chapter, Draft
 from .equilibrium_steps import decimal, scientific
 from .positions import axes_that_stay
+from .stability import eigenvalues_within
 from .trim import EnclosedTrim, Numbers, Trim
 
 
@@ -62,7 +63,18 @@ def _says_enclosed(trim: EnclosedTrim, group: Group, draft: Draft) -> Prose:
     if trim.along:
         moving = [(_named(x, group, trim), told[x]) for x in _velocity(trim, group) if told[x]]
         prose += draft.claim("trim.near_velocity", entries=_equations(moving), radius=radius)
-    return prose + draft.claim(f"trim.near_{trim.verdict}")
+    prose += draft.claim(f"trim.near_{trim.verdict}")
+    return prose + _says_eigenvalues(trim, draft)
+
+
+def _says_eigenvalues(trim: EnclosedTrim, draft: Draft) -> Prose:
+    radius, values = eigenvalues_within(trim.matrix)
+    if not values:
+        return Prose()
+    rows = tuple(("row", tree(re), tree(im)) for re, im in values)
+    others = len(trim.matrix) - sum(1 + bool(im) for _, im in values)
+    told: dict[str, Tree] = {"eigenvalues": ("matrix", *rows), "radius": scientific(radius)}
+    return draft.claim("trim.near_eigenvalues", **told, others=others)
 
 
 def _velocity(trim: Trim, group: Group) -> dict[str, Number]:

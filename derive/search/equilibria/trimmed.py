@@ -189,10 +189,8 @@ class EnclosedQuestion(Question):
             self.require_slopes(x, u)
             matrix = self.linear(x, u)
         except (UnknownSignError, ZeroDivisionError):
-            raise NoTrimError(
-                f"{why}; and within bounds a root or a divisor in what acts may be 0, as the speed "
-                "of what stands still is"
-            ) from None
+            told = "a root or a divisor in what acts may be 0, as the speed of what stands still is"
+            raise NoTrimError(self._still() or f"{why}; and within bounds {told}") from None
         velocity = x[-self.d :]
         if moving := any(velocity):
             random = Random(1)
@@ -221,6 +219,24 @@ class EnclosedQuestion(Question):
     def of_first_order(change: Any) -> bool:
         """Is it beside a little more than what its square changes?"""
         return Interval.of(change).size > LITTLE / 2**40
+
+    def _still(self) -> str:
+        """That factors without a turn stand still while others turn, in words; "" where none do."""
+        velocity, first, still, turns = self.program.state[-self.d :], 0, [], False
+        Z = self.group.hat(self.x[-self.d :])
+        for k, (offset, factor) in enumerate(self.group.places, 1):
+            at = slice(offset, offset + factor.n)
+            turns = turns or any(any(row[at]) for row in Z[at])
+            part = slice(first, first := first + factor.dimension)
+            kept = not any(self.x[-self.d :][part]) and not {*velocity[part]} & {*self.velocities}
+            still += [f"{factor.name} of block {k}"] * (not factor.linear_basis and kept)
+        if not still or not turns:
+            return ""
+        return (
+            f"no trim is proved: {' and '.join(still)} has no turn, and stands still while the "
+            "rest circles, so that a speed is 0 in what acts; what shall circle, too, must move by "
+            "a group with turns, as SE(3)"
+        )
 
     def enclosed(self, f: Rates, near: Sequence[Fraction], radius: Fraction) -> Box:
         """Narrow bounds of the one solution within a radius; ``NoTrimError`` where that is not

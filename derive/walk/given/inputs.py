@@ -267,10 +267,15 @@ def _external(
     """The sums of the parts, with their step."""
     moments, pulls = ([x.moment for x in parts], [x.pull for x in parts])
     equations = [*definitions, Equation(forces.moments.name, add(*moments))]
+    steady = [k for k, x in enumerate(problem.flows, 1) if x.steady]
+    supposed = draft.claim("input.flow_steady", flows=("row", *steady)) if steady else ()
     if b.affine:
         whole = add(*pulls) or column((0,) * problem.own_group.n)  # moments alone
         equations.append(Equation(forces.resultant.name, whole))
-    step, own = draft.step(equations, prose(problem)), tuple(x for x in parts if any(x[1:]))
+    step, own = (
+        draft.step(equations, prose(problem) + supposed),
+        tuple(x for x in parts if any(x[1:])),
+    )
     return External(
         draft.mark(word(forces.moments)), draft.mark(word(forces.resultant)), (step,), own
     )
