@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 
 from ..algebra.families import FAMILIES
 from ..language.limits import Refused
+from ..problem.fields import entry_places
 from ..problem.problem import Problem, ProblemError
 from ..record.record import Derivation, Step
 from ..schema.table import nearest
@@ -201,10 +202,9 @@ SMALL = 1e-12
 def trim_lines(found: Trim, group: Group, units: Mapping[str, str], lang: str) -> list[str]:
     """A trim at a glance: the inputs, and what of the state is not that of g = 1 and rest, by the
     names of the options, with their units, and its verdict."""
-    from ..search.equilibria.trim import entries_of
     from ..views.language import language
 
-    words, places = language(lang), entries_of(group)
+    words, places = language(lang), entry_places(group)
     rows = {x: float(y) for x, y in found.inputs.items()}
     for name, y in found.state.items():
         here, (i, j) = float(y), places.get(name, (0, 1))
