@@ -107,7 +107,7 @@ def one_degree(problem: Problem, record: Derivation) -> OneDegree | None:
     group = problem.own_group
     name = next(x for x, t in state_names(group).items() if t == left.entry)
     turns = "orthogonal" in group.relations and name.startswith("A")
-    return OneDegree(left.entry, V, momenta_of(found), name, turns)
+    return OneDegree(left.entry, V, momenta_of(found, reduced.routhian.chosen), name, turns)
 
 
 def trim(

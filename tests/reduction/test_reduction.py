@@ -96,6 +96,22 @@ def test_which_symmetries_are_taken():
     assert reduced("free").routhian.freedom == 1
 
 
+def test_other_symmetries_are_taken_where_the_first_lead_to_no_quadrature():
+    """On the half plane a > 0 of r ↦ ar + b, dilations of space come first; by translations
+    ȧ² = 2a²h − a⁴𝒥², as L̃ = ½(ȧ² + ḃ²)/a² and 𝒥 = ḃ/a²."""
+    group = {"name": "Half", "basis": [[[1, 0], [0, 0]], [[0, 1], [0, 0]]]}
+    found = stated("(zeta_1^2 + zeta_2^2)/2", group).reduction()
+    assert all(v.holds for v in found.check())
+    assert found.quadrature is not None
+    whole = found.quadrature.sympy().rhs
+    rng = np.random.default_rng(3)
+    for a, fall, momentum in rng.uniform(0.5, 2, (5, 3)):
+        h = (fall**2 + (a**2 * momentum) ** 2) / (2 * a**2)
+        values = {"A[0, 0]": a, "h̃": h, "𝒥_1": momentum}
+        there = whole.replace(lambda x, v=values: str(x) in v, lambda x, v=values: v[str(x)])
+        assert np.isclose(float(there), fall**2)
+
+
 @pytest.mark.parametrize(
     ("name", "word"),
     [

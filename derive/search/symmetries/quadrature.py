@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import reduce
 from itertools import groupby, product
@@ -19,20 +19,30 @@ from .symmetry import Symmetry
 # Which symmetries a reduction is by: of L̃ itself, without time, each commuting with the others.
 
 
-def chosen(found: SymmetriesFound) -> tuple[Symmetry, ...]:
-    """The symmetries that are taken; ``ProblemError`` where there is none.
+def choices(found: SymmetriesFound) -> Iterator[tuple[Symmetry, ...]]:
+    """The symmetries that may be taken, several times; ``ProblemError`` where there is none.
 
     They are taken in turn, kind by kind, of several axes the last first; listed in their order.
+    Then so again, with each of the others as the first.
     """
     fit = [k for k, x in enumerate(found.symmetries) if _fits(x)]
     if not fit:
         raise ProblemError(f"{found.problem.name}: {_why_not(found)}, so that nothing is reduced")
-    taken: list[int] = []
-    for _, group in groupby(fit, key=lambda k: found.symmetries[k].kind):
-        for k in sorted(group, key=lambda k: axis(found.symmetries[k]), reverse=True):
-            if all({k, j} in found.commuting for j in taken):
+    by_kind = groupby(fit, key=lambda k: found.symmetries[k].kind)
+    turn = [
+        k
+        for _, group in by_kind
+        for k in sorted(group, key=lambda k: axis(found.symmetries[k]), reverse=True)
+    ]
+    told = set[tuple[int, ...]]()
+    for first in turn:
+        taken: list[int] = []
+        for k in (first, *turn):
+            if k not in taken and all({k, j} in found.commuting for j in taken):
                 taken.append(k)
-    return tuple(found.symmetries[k] for k in sorted(taken))
+        if (own := tuple(sorted(taken))) not in told:
+            told.add(own)
+            yield tuple(found.symmetries[k] for k in own)
 
 
 def _fits(x: Symmetry) -> bool:
@@ -55,15 +65,15 @@ def _why_not(found: SymmetriesFound) -> str:
 
 def leaves_one(found: SymmetriesFound) -> bool:
     """Do the symmetries that a reduction takes leave one degree of freedom?"""
-    problem = found.problem
-    left = problem.own_group.dimension - len(problem.own_lagrangian.held) - len(chosen(found))
+    problem, taken = found.problem, next(choices(found))
+    left = problem.own_group.dimension - len(problem.own_lagrangian.held) - len(taken)
     return left == 1
 
 
-def momenta_of(found: SymmetriesFound) -> tuple[str, ...]:
+def momenta_of(found: SymmetriesFound, taken: Iterable[Symmetry]) -> tuple[str, ...]:
     """The names of 𝒥_1, 𝒥_2, … of the symmetries that a reduction takes."""
     names = dict(zip(map(id, found.symmetries), named(found), strict=True))
-    return tuple(names[id(x)] for x in chosen(found))
+    return tuple(names[id(x)] for x in taken)
 
 
 Vector = list[Element]
@@ -84,6 +94,25 @@ class Quadrature:
     degree: int = 0
     left: int = 0
     leading: Mapping[tuple[int, ...] | None, Element] = field(default_factory=dict)
+
+
+def reduced(found: SymmetriesFound) -> tuple[Routhian, Quadrature | None]:
+    """A reduction by symmetries that commute, and its quadrature: where those that are taken first
+    leave one degree of freedom and no quadrature, by others that have one, if there are such."""
+    first: Routhian | None = None
+    for taken in choices(found):
+        own = Routhian(found, taken)
+        first = first or own
+        try:
+            left = quadrature_of(own)
+        except ProblemError:  # of others: their fields depend on one another
+            if own is first:
+                raise
+            continue
+        if left or first.freedom != 1:
+            return own, left
+    assert first is not None
+    return first, None
 
 
 def quadrature_of(r: Routhian) -> Quadrature | None:

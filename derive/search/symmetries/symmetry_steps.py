@@ -18,7 +18,7 @@ from ...walk.lie import expressed
 from ...walk.lie.expressed import of_element
 from ...walk.spine.head import recorded
 from .found_symmetries import Central, SymmetriesFound
-from .quadrature import Quadrature, chosen, quadrature_of
+from .quadrature import Quadrature, reduced
 from .routhian import Routhian, Square
 from .state_functions import Element
 from .symmetry import ON_FORM, Symmetry
@@ -400,10 +400,8 @@ class Reduction:
 def reduction_record(found: SymmetriesFound, general: Values) -> Reduction:
     """The record of a reduction; ``general``: the road of any Lagrangian.  ``ProblemError`` where
     there is nothing to reduce by."""
-    taken = chosen(found)
-    routhian = Routhian(found, taken)
+    routhian, left = reduced(found)
     c, before, made_from = expressed_on_basis(found.problem, general)
-    left = quadrature_of(routhian)
     steps = (*before, *told(routhian, left, made_from, c))
-    fields = [encode(x.displacement) for x in taken]
+    fields = [encode(x.displacement) for x in routhian.chosen]
     return Reduction(routhian, left, recorded(found.problem, steps, symmetries=fields))
