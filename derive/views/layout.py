@@ -1,7 +1,8 @@
-"""A record as it is read: common factors of parameters before their sum, l²(m₁ + m₂); in a product
-of groups the entries of g by the blocks of the factors, as problem files type them: A₃₃ of two
-rotations of the plane, A2_11 in a file, is (A₂)₁₁; and those of Γ by the names of what the algebra
-carries along. And the equations of a step as rows of an alignment, none wider than the page.
+"""A record as it is read: common factors of parameters before their sum, l²(m₁ + m₂), no brackets
+around a sum in a sum; entries of g as problem files type them, in a product by the blocks of the
+factors, A₃₃ of two rotations of the plane, A2_11 in a file, is (A₂)₁₁, and places as T; and those
+of Γ by the names of what the algebra carries along. And the equations of a step as rows of an
+alignment, none wider than the page.
 """
 
 from __future__ import annotations

@@ -11,6 +11,7 @@ import sympy
 import derive
 from derive.command.cli import main
 from derive.command.showing import ready_made
+from derive.language.show import show
 from derive.language.tree import nodes
 from derive.pipeline import both_trivialisations, walk
 from derive.problem.toml import problem_of
@@ -26,6 +27,7 @@ from derive.views.answer import told as stations
 from derive.views.html import html
 from derive.views.language import LANGUAGES, language
 from derive.views.latex import latex
+from derive.views.layout import Reading
 from derive.views.outline import assumed, moving, system
 from derive.views.printing.signs import tex_text
 from derive.views.printing.typeset import display_width
@@ -110,6 +112,20 @@ def test_a_spring_stands_by_the_difference_of_its_ends():
     defined = defined_in("two_tops")
     assert {("at", "d", 1), ("at", "r", 1), ("at", "r", 3)} <= defined
     assert not {"N_Q", ("at", "r", 2), ("at", "r", 4)} & defined
+
+
+def test_a_place_on_r3_is_t_and_a_sum_has_no_brackets_in_it():
+    """−(−a − b) is read as a + b; in the record the same trees stay."""
+    ell = "1/2*m*(zeta_1^2 + zeta_2^2*cos(T_1)) - k*T_2^2"
+    own = {"name": "arm", "group": "R(3)", "lagrangian": {"L": ell + " + 1/2*m*zeta_3^2"}}
+    d = walk(problem_of(own | {"parameters": {"m": 1.0, "k": 2.0}}))
+    text = render(d, "text", answer=True)
+    assert "cos(T₁)" in text
+    assert "T: the last column" in text
+    assert "A₁₄" not in text
+    assert ("entry", "A", 1, 4) in {x for s in d.steps for e in s.equations for x in nodes(e.rhs)}
+    summed = ("add", "a", ("mul", -1, ("add", ("mul", -1, "b"), ("mul", -2, "c"))))
+    assert show(Reading(d.problem).tree(summed)) == "a + b + 2c"
 
 
 def test_a_letter_is_defined_where_it_is_used_alone():
