@@ -147,6 +147,7 @@ def test_what_acts_must_be_steady_smooth_and_linear():
         (acting("t"), "depends on the time"),
         (acting("abs(zeta_1)"), "has no derivative there"),
         (acting("k*zeta_1", **parameter), "k has no default"),
+        (acting("u^2"), "several trims: u = 3; u = -4"),
     ):
         with pytest.raises(ProblemError, match=why):
             derive(problem_of(problem)).trim(TURNED)
