@@ -6,9 +6,9 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property, lru_cache, reduce
+from functools import cached_property, reduce
 from itertools import pairwise
-from operator import itemgetter, truediv
+from operator import truediv
 from typing import Any, TypeVar
 
 import numpy as np
@@ -201,35 +201,16 @@ def _runs(
 def value(t: Tree, of: Mapping[Tree, Any]) -> Any:
     """The value of an expression of numbers, vectors and square matrices, by those ``of`` its
     letters; ``⟨a, b⟩`` is the sum of the products of the components of both."""
-    return _function(t, frozenset(of))(of)
-
-
-@lru_cache(maxsize=256)
-def _function(t: Tree, letters: frozenset[Tree]) -> Callable[[Mapping[Tree, Any]], Any]:
-    """Letters → the value of an expression: a motion asks for it thousands of times."""
-    if t in letters:
-        return itemgetter(t)
+    if t in of:
+        return of[t]
     if not isinstance(t, tuple):
-        number = float(t)
-        return lambda of: number
+        return float(t)
     if t[0] == "pow":
-        base, exponent = _function(t[1], letters), t[2]
-        return lambda of: _power(base(of), exponent)
+        base = value(t[1], of)
+        return np.linalg.matrix_power(base, t[2]) if np.ndim(base) else base ** t[2]
     if t[0] not in OPERATIONS:
         raise ValueError(f"no value for the operator {t[0]!r}")
-    operation, operands = OPERATIONS[t[0]], [_function(x, letters) for x in t[1:]]
-    if len(operands) == 1:
-        (only,) = operands
-        return lambda of: operation(only(of))
-    return lambda of: operation(*[x(of) for x in operands])
-
-
-def _power(base: Any, exponent: int) -> Any:
-    return np.linalg.matrix_power(base, exponent) if np.ndim(base) else base**exponent
-
-
-def _product(x: Any, y: Any) -> Any:
-    return x * y if isinstance(x, float) and isinstance(y, float) else np.dot(x, y)
+    return OPERATIONS[t[0]](*(value(x, of) for x in t[1:]))
 
 
 def hat(x: Any) -> Any:
@@ -239,7 +220,7 @@ def hat(x: Any) -> Any:
 
 OPERATIONS: dict[str, Callable[..., Any]] = {
     "add": lambda *x: sum(x),
-    "mul": lambda *x: reduce(_product, x),
+    "mul": lambda *x: reduce(np.dot, x),
     "div": truediv,
     "inv": lambda x: np.linalg.inv(x) if np.ndim(x) else 1 / x,
     "T": np.transpose,
