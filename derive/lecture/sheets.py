@@ -6,9 +6,9 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property, reduce
+from functools import cached_property, lru_cache, reduce
 from itertools import pairwise
-from operator import truediv
+from operator import itemgetter, truediv
 from typing import Any, TypeVar
 
 import numpy as np
@@ -201,16 +201,35 @@ def _runs(
 def value(t: Tree, of: Mapping[Tree, Any]) -> Any:
     """The value of an expression of numbers, vectors and square matrices, by those ``of`` its
     letters; ``⟨a, b⟩`` is the sum of the products of the components of both."""
-    if t in of:
-        return of[t]
+    return _function(t, frozenset(of))(of)
+
+
+@lru_cache(maxsize=256)
+def _function(t: Tree, letters: frozenset[Tree]) -> Callable[[Mapping[Tree, Any]], Any]:
+    """Letters → the value of an expression: a motion asks for it thousands of times."""
+    if t in letters:
+        return itemgetter(t)
     if not isinstance(t, tuple):
-        return float(t)
+        number = float(t)
+        return lambda of: number
     if t[0] == "pow":
-        base = value(t[1], of)
-        return np.linalg.matrix_power(base, t[2]) if np.ndim(base) else base ** t[2]
+        base, exponent = _function(t[1], letters), t[2]
+        return lambda of: _power(base(of), exponent)
     if t[0] not in OPERATIONS:
         raise ValueError(f"no value for the operator {t[0]!r}")
-    return OPERATIONS[t[0]](*(value(x, of) for x in t[1:]))
+    operation, operands = OPERATIONS[t[0]], [_function(x, letters) for x in t[1:]]
+    if len(operands) == 1:
+        (only,) = operands
+        return lambda of: operation(only(of))
+    return lambda of: operation(*[x(of) for x in operands])
+
+
+def _power(base: Any, exponent: int) -> Any:
+    return np.linalg.matrix_power(base, exponent) if np.ndim(base) else base**exponent
+
+
+def _product(x: Any, y: Any) -> Any:
+    return x * y if isinstance(x, float) and isinstance(y, float) else np.dot(x, y)
 
 
 def hat(x: Any) -> Any:
@@ -220,7 +239,7 @@ def hat(x: Any) -> Any:
 
 OPERATIONS: dict[str, Callable[..., Any]] = {
     "add": lambda *x: sum(x),
-    "mul": lambda *x: reduce(np.dot, x),
+    "mul": lambda *x: reduce(_product, x),
     "div": truediv,
     "inv": lambda x: np.linalg.inv(x) if np.ndim(x) else 1 / x,
     "T": np.transpose,
