@@ -56,7 +56,9 @@ def _inverse(n: int, p: int) -> int:
 
 
 def _residue(x: Any, p: int) -> int:
-    """The residue of an integer or a fraction, as an integer."""
+    """The residue of an integer, a fraction or a residue, as an integer."""
+    if type(x) is Residue:
+        return x.n
     a, b = x.as_integer_ratio()
     return int(a) if b == 1 else _quotient(a, b, p)
 
@@ -94,10 +96,7 @@ class Residue(FieldElement):
     def product(rows: Sequence[Sequence[Any]], columns: Sequence[Sequence[Any]]) -> Any:
         """Each row times each column, reduced modulo p once."""
         p = next(x.p for m in (rows, columns) for y in m for x in y if isinstance(x, Residue))
-        left, right = (
-            [[x.n if type(x) is Residue else _residue(x, p) for x in y] for y in m]
-            for m in (rows, columns)
-        )
+        left, right = ([[_residue(x, p) for x in y] for y in m] for m in (rows, columns))
         return tuple(tuple(Residue(sum(map(mul, x, y)), p) for y in right) for x in left)
 
     def __add__(self, other: Any) -> Any:
