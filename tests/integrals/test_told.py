@@ -154,3 +154,19 @@ def test_a_word_while_it_works(monkeypatch, capsys):
         told[0],
     )
     assert any(x.startswith("derive: note: integrals of degree 4 are sought: ") for x in told)
+
+
+@pytest.mark.parametrize(
+    ("L", "group", "said"),
+    [
+        ("(zeta_1^2 + zeta_2^2 + 3*zeta_3^2)/2 - A_13^2 - A_23^2", "SO(3)", True),
+        ("(zeta_1^2 + zeta_2^2)/2 - T_1^4 - T_2^4", "R(2)", False),
+        ("(zeta_1^2 + zeta_2^2 + 3*zeta_3^2)/2", "SO(3)", False),
+    ],
+)
+def test_that_relations_of_the_group_are_not_used_is_said_where_there_are_some(L, group, said):
+    """A₁₃² + A₂₃² is 1 − A₃₃² on SO(3), where the momentum about axis 3 of space is kept."""
+    reduced = next(
+        s for s in first_integrals(lagrangian(L, group)).record.steps if s.rule == "reduction"
+    )
+    assert ("by the relations of the group" in english(reduced.prose)) == said
