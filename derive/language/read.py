@@ -7,9 +7,10 @@
 
 ``show(read(s)) == s``, and ``read(show(t)) == t`` but where trees print alike; then it is the first
 of these: the number 1, not the unit matrix 𝟏, where it is no factor; a letter of the walk, not a
-parameter, unless the reader is told its name or it stands in ‘quotes’; a member F₁ of a family,
-not an entry of the resultant; an inverse, not the power −1; ‖a‖², not a square of ‖a‖; (−a)/b, not
-−(a/b).  Of a matrix two digits are two indices; [a, b] = ab − ba, and [a, b;] is a row.
+parameter, unless the reader is told its name or it stands in ‘quotes’; a member F₁ of a family, not
+an entry of the resultant; T₁ of a step in time, not an entry of T; an inverse, not the power −1;
+‖a‖², not a square of ‖a‖; (−a)/b, not −(a/b).
+Of a matrix two digits are two indices; [a, b] = ab − ba, and [a, b;] is a row.
 Spaces between factors may be left out, ``αδt``, and an index may stand after _, ``r_i``.
 """
 

@@ -31,7 +31,7 @@ from .printing.typeset import Formula, Line, fill, literal, measure, plain, text
 OF_G = ("A", "Ȧ")
 """The letters of matrices that have a block for each factor."""
 MEANING = "{meaning}; its blocks are {blocks}"
-LAST = "{meaning}; {last}: the last column of a matrix that acts on (r, 1)"
+LAST = "{meaning}; {last}: last column of the matrix"
 ELEMENT = "element of the group"
 MOVED = re.compile(r"(R|SE)\(\d\)")
 """Groups of one factor whose matrices may be those on (r, 1)."""

@@ -52,9 +52,8 @@ def test_a_drone_leans_into_its_turn():
         *(0, -Fraction(3, 5), Fraction(4, 5))
     ]
     assert sum(found.found.inputs.values()) == 25
-    assert "that is Y, ζ₃ = 1, seen from g" in english(found.record.steps[-1].prose).replace(
-        "$", ""
-    )
+    words = english(found.record.steps[-1].prose).replace("$", "")
+    assert "that is Y, ζ₃ = 1, seen from the element of the group" in words
     assert holds(found)
 
 

@@ -29,6 +29,8 @@ def _inside(t):
     if not isinstance(t, tuple):
         return t
     t = tuple(_inside(x) for x in t)
+    if t[0] == "entry" and (name := "_".join(map(str, t[1:]))) in NUMBERED:
+        return name
     if t[0] == "pow" and t[2] == -1:
         return ("inv", t[1])
     if t[:2] == ("mul", -1) and len(t) == 3 and t[2][0] == "div":

@@ -241,10 +241,11 @@ def test_the_latex_has_every_formula_with_the_marks_over_its_letters(lang):
 def test_a_display_ends_with_a_sign_and_a_product_is_broken_at_one(lang):
     """A comma where its sentence goes on, a full stop where it ends; neither before "for"."""
     tex = shown("latex", lang)
-    assert r"(v_{i}) = F_{i}.\numbered" in tex
+    assert r"(v_{i}) = F_{i}.\ofnote" in tex
     assert r"- \tilde U,\ofnote" in tex
-    behind = r"\s\\end{aligned}|\\numbered|\\ofnote|\\qedhere|$"
-    displays = [re.split(behind, x)[0] for x in re.findall(r"\\\[(.*?)\\\]", tex, re.S)]
+    behind = r"\s*\\end{aligned}|\\ofnote|\s*\\qedhere|\s*$"
+    found = (b or c for a, b, c in TYPESET.findall(FIGURE.sub("", tex)) if b or c)
+    displays = [re.split(behind, MARGIN.sub("", x))[0] for x in found]
     assert sum(x[-1] not in ",." for x in displays) < 9 < 90 < len(displays)
     assert r"\quad \times (" in tex
     assert r"\quad \,(" not in tex

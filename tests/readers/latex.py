@@ -259,7 +259,8 @@ def equations(block, known):
         if starts:
             found.append(f"{left} {right}")
         else:
-            found[-1] += f" {right}"
+            # a product that goes on in a new line has its sign there
+            found[-1] += re.sub(r"^\s*((?:\\quad)+) \\times", r" \1", right)
     for tex in found:
         for one in tex.split(r",\qquad "):
             yield equation(tokens(one, known), known)

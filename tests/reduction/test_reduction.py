@@ -67,7 +67,10 @@ def test_the_effective_potential_of_a_top(capsys):
 
 
 def test_a_parameter_is_told_from_the_element_of_the_group(capsys):
-    assert "𝒱 = ml‘g’ A₃₃ + " in said(capsys, "spherical_pendulum").out
+    """By quotes, where both stand: not where the element is in no formula of what is shown."""
+    assert "𝒱 = mlg A₃₃ + " in said(capsys, "spherical_pendulum").out
+    assert main(["walk", "spherical_pendulum"]) == 0
+    assert "m‘g’l A₃₃" in capsys.readouterr().out
 
 
 def stated(L, group="SO(3)"):

@@ -129,6 +129,7 @@ def test_what_is_no_routine_is_said(text, words):
 
 
 LEFT = {
+    "rhs_each",
     "begin",
     "dense",
     "multiplied",
