@@ -200,12 +200,11 @@ STRIDES = ("DOWN", "DOWN_PARAMETERS", "ALONG")
 
 
 class _Known(ast.NodeTransformer):
-    """Puts what is known when a file is written into a tree; ``again``: which is read once more,
-    for the next turn of a loop, and so is copied."""
+    """Puts what is known when a file is written into a tree."""
 
-    def __init__(self, given: Given, comments: dict[ast.stmt, list[str]], *, again: bool = False):
+    def __init__(self, given: Given, comments: dict[ast.stmt, list[str]]):
         self.given = {x: value for x, value in given.items() if x[0].isupper() or x in INDICES}
-        self.comments, self.again = comments, again
+        self.comments = comments
 
     def body(self, statements: Sequence[ast.stmt]) -> list[ast.stmt]:
         """Statements without conditions on what is known."""
@@ -222,16 +221,12 @@ class _Known(ast.NodeTransformer):
                 return [
                     y
                     for number in range(self._value(count))
-                    for y in self._turn(i, number).body(x.body)
+                    for y in _Known({**self.given, i: number}, self.comments).body(x.body)
                 ]
         made = self._copied(x)
         if x in self.comments:
             self.comments[made] = self.comments[x]
         return [made]
-
-    def _turn(self, i: str, number: int) -> _Known:
-        """What puts the number of a turn of a loop in, too."""
-        return _Known({**self.given, i: number}, self.comments, again=True)
 
     def _copied(self, x: ast.stmt) -> ast.stmt:
         """A statement with what is known in its expressions and blocks."""
@@ -249,7 +244,8 @@ class _Known(ast.NodeTransformer):
     def _expression(self, x: Any) -> Any:
         if not isinstance(x, ast.AST):
             return x
-        return self.visit(copy.deepcopy(x) if self.again else x)
+        # what is unrolled is read once more, for the next turn
+        return self.visit(copy.deepcopy(x) if {*INDICES} & {*self.given} else x)
 
     def visit_Name(self, x: ast.Name) -> ast.expr:
         """A number that is known; other names stay, as the language says them."""
