@@ -13,14 +13,13 @@ import re
 import shutil
 import sys
 import tomllib
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import replace
 from itertools import repeat
 from pathlib import Path
 from typing import Any
 
-import derive
 from derive.algebra.families import FAMILIES, Family, group
 from derive.algebra.groups import Group
 from derive.code.languages import LANGUAGES
@@ -84,17 +83,16 @@ def library(name: str, out: Path) -> None:
     shutil.copytree(source, out / name, ignore=skip)
 
 
-def problems() -> list[dict[str, str]]:
+def problems(said: Mapping[str, Mapping[str, str]]) -> list[dict[str, str]]:
     """The ready-made problems in the order of the gallery: name, text; shelf, what it is as a
-    thing, title and group in both languages."""
+    thing, title and group in both languages; ``said``: what a record says of each."""
     found = []
     things = [(shelf, x) for shelf in shelves() for x in shelf["things"]]
     for own, x in things:
-        record = derive.derive(x["name"]).record
         told = {"name": x["name"], "text": (READY / f"{x['name']}.toml").read_text("utf-8")}
-        group = x.get("group", str(record.problem.get("group") or "").replace(" x ", " × "))
+        group = x.get("group", said[x["name"]]["group"])
         for lang in SPOKEN:
-            called = title(record, language(lang)).replace("^2", "²")
+            called = said[x["name"]][lang]
             told |= {lang: x[lang], f"shelf_{lang}": own[lang], f"title_{lang}": called}
             told[f"group_{lang}"] = x.get(f"group_{lang}", group)
         found.append(told)
@@ -182,17 +180,19 @@ def moved(g: Group, meaning: str) -> dict[str, object]:
     return {"n": g.n, "d": g.dimension, "w": w, "meaning": meaning}
 
 
-def stored(out: Path) -> None:
+def stored(out: Path) -> dict[str, dict[str, str]]:
     """What the worker tells of the ready-made problems, so that these are read, and move, before
-    there is Python."""
+    there is Python; returned is what their records say of themselves."""
     folder = out.with_name("stored")
     folder.mkdir()
     with ProcessPoolExecutor() as pool:
-        [*pool.map(stored_of, ready_made(), repeat(out), repeat(folder))]
+        said = pool.map(stored_of, ready_made(), repeat(out), repeat(folder))
+        return dict(zip(ready_made(), said, strict=True))
 
 
-def stored_of(name: str, out: Path, folder: Path) -> None:
-    """A file of a problem in each language, with the news of the worker in their order."""
+def stored_of(name: str, out: Path, folder: Path) -> dict[str, str]:
+    """A file of a problem in each language, with the news of the worker in their order; returned
+    are its title by language, its group and its picture."""
     sys.path.insert(0, str(HERE / "python"))
     import play
 
@@ -206,13 +206,19 @@ def stored_of(name: str, out: Path, folder: Path) -> None:
             heard.clear()
             getattr(played, ask)(text, lang)
             told[ask] = [*heard]
-        once(told)
+            for news in (x for kind, x in heard if kind == "kept"):
+                # its code has that of the motion in it: it stands once, with the motion
+                played.sources[False] = news.pop("source")
         made = json.dumps(told, ensure_ascii=False, separators=(",", ":")).encode()
         (out / f"{name}.{lang}.json.gz").write_bytes(gzip.compress(made, 9, mtime=0))
     heard.clear()
     played.files(text, EMISSION)
     code = json.dumps({"files": heard}, ensure_ascii=False).encode()
     (out / f"{name}.code.json.gz").write_bytes(gzip.compress(code, 9, mtime=0))
+    record: Derivation = played.record
+    titles = {x: title(record, language(x)).replace("^2", "²") for x in SPOKEN}
+    group = str(record.problem.get("group") or "").replace(" x ", " × ")
+    return {**titles, "group": group, "picture": picture(record)}
 
 
 THING = ("name", "en", "fr", "like", "group", "group_fr")
@@ -266,25 +272,16 @@ def _cropped(found: Scene) -> Scene:
     )
 
 
-def pictures() -> dict[str, str]:
+def pictures(said: Mapping[str, Mapping[str, str]]) -> dict[str, str]:
     """Of the things that have one."""
     things = [x for shelf in shelves() for x in shelf["things"]]
-    drawn = {x["name"]: picture(derive.derive(x.get("like", x["name"])).record) for x in things}
+    drawn = {x["name"]: said[x.get("like", x["name"])]["picture"] for x in things}
     return {name: x for name, x in drawn.items() if x}
-
-
-def once(told: dict[str, list[tuple[str, Any]]]) -> None:
-    """The code of a motion with all that it keeps, which has that of the motion in it, stands
-    once: with the motion."""
-    for kept in (news for kind, news in told["kept"] if kind == "kept"):
-        for motion in (news for kind, news in told["motion"] if kind == "motion"):
-            motion["source"] = kept["source"]
-        del kept["source"]
 
 
 EMISSION = "emit FILE --lang c --lang python --out out"
 """The code that is shown before anything is chosen."""
-STORED = ("walk", "motion", "kept")
+STORED = ("walk", "kept", "motion")
 """What is asked of a ready-made problem before it is changed."""
 
 
@@ -309,16 +306,16 @@ def main(out: Path) -> None:
         library(name, later / name)
     shutil.copy(HERE / "python" / "play.py", first)
     (first / "amendments.pickle").write_bytes(pickle.dumps(amendments(AMENDED)))
+    (out / "ready").mkdir()
+    said = stored(out / "ready")
     told = {
-        "problems": problems(),
+        "problems": problems(said),
         **options(),
         "schema": schema(),
         "spoken": spoken(),
     }
     (out / "motion.js").write_text(drawing(), encoding="utf-8")
-    (out / "ready").mkdir()
-    stored(out / "ready")
-    (out / "gallery.json").write_text(json.dumps(pictures()))
+    (out / "gallery.json").write_text(json.dumps(pictures(said)))
     (out / "data.json").write_text(json.dumps(told, ensure_ascii=False, sort_keys=True))
 
 

@@ -242,7 +242,10 @@ class _Known(ast.NodeTransformer):
         return ast.copy_location(made, x)
 
     def _expression(self, x: Any) -> Any:
-        return self.visit(copy.deepcopy(x)) if isinstance(x, ast.AST) else x
+        if not isinstance(x, ast.AST):
+            return x
+        # what is unrolled is read once more, for the next turn
+        return self.visit(copy.deepcopy(x) if {*INDICES} & {*self.given} else x)
 
     def visit_Name(self, x: ast.Name) -> ast.expr:
         """A number that is known; other names stay, as the language says them."""

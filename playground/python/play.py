@@ -45,6 +45,8 @@ class Play:
     def __init__(self, tell: Tell) -> None:
         self.tell_text, self.text, self.problem, self.record = tell, "", None, None
         self.path = FOLDER / "problem.toml"
+        self.programs: dict[bool, Any] = {}
+        self.sources: dict[bool, str] = {}
 
     def tell(self, kind: str, news: Any) -> None:
         """Send news."""
@@ -71,6 +73,8 @@ class Play:
         if text == self.text and self.record is not None:
             return
         self.text, self.record = text, None
+        self.programs.clear()
+        self.sources.clear()
         shutil.rmtree(FOLDER, ignore_errors=True)
         FOLDER.mkdir()
         self.path = FOLDER / f"{name_of(text)}.toml"
@@ -214,22 +218,13 @@ class Play:
     def moved(self, text: str, lang: str, *, sought: bool) -> tuple[str, dict[str, Any]]:
         """The emitted JavaScript of a motion, and what its page is told; is it ``sought`` what the
         motion keeps?"""
-        from derive.code.emit import emit
-        from derive.code.options import Options
         from derive.motion.emitted_code import EmittedCode
-        from derive.motion.first_numbers import first_numbers
-        from derive.programs import moving_program
-        from derive.views.arrows import arrows, with_arrows
         from derive.views.language import language
         from derive.views.page.motion_page import data
 
         self.read(text)
-        seen = arrows(self.record)
-        record = with_arrows(self.record, seen)
-        made, _ = moving_program(self.problem, record, sought=sought)
-        begin = first_numbers(with_numbers(made), self.problem, {})
-        chosen = Options(step=("gauss",))
-        (source,) = emit(made, record, ("javascript",), made.name, chosen).values()
+        source = self.source(sought=sought)
+        made, begin, _, seen = self.programs[sought]
         code = EmittedCode(made, self.record, self.problem)
         page = data(code, self.problem, self.record, begin, language(lang), seen)
         page |= {"t": SECONDS, "tol": TOLERANCE}
@@ -237,6 +232,27 @@ class Play:
         page["x"] = moving(page, made)
         page["pushed"] = page["x"] != stated
         return source, page
+
+    def source(self, *, sought: bool) -> str:
+        """The emitted JavaScript of a motion, in no language of people: made once."""
+        from derive.code.emit import emit
+        from derive.code.options import Options
+        from derive.motion.first_numbers import first_numbers
+        from derive.programs import moving_program
+        from derive.views.arrows import arrows, with_arrows
+
+        if sought not in self.programs:
+            seen = arrows(self.record)
+            record = with_arrows(self.record, seen)
+            made, _ = moving_program(self.problem, record, sought=sought)
+            begin = first_numbers(with_numbers(made), self.problem, {})
+            self.programs[sought] = made, begin, record, seen
+        if sought not in self.sources:
+            made, _, record, _ = self.programs[sought]
+            chosen = Options(step=("gauss",))
+            told = emit(made, record, ("javascript",), made.name, chosen)
+            (self.sources[sought],) = told.values()
+        return self.sources[sought]
 
 
 class NotYet(BaseException):

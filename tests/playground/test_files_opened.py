@@ -13,7 +13,7 @@ from derive.problem.mesh import mesh_moments
 from tests.playground.test_moving import MOTION
 from tests.support import in_node
 from tests.support.played import PENDULUM
-from tests.support.playground_site import opened, text_in, visit, walked
+from tests.support.playground_site import text_in, walked
 
 DROP = """([name, text]) => {
     const data = new DataTransfer();
@@ -21,13 +21,6 @@ DROP = """([name, text]) => {
     const told = { dataTransfer: data, bubbles: true, cancelable: true };
     document.querySelector("#editor .cm-content").dispatchEvent(new DragEvent("drop", told));
 }"""
-
-
-@pytest.fixture(scope="module")
-def page(browser, site):
-    with opened(browser) as page:
-        visit(page, f"{site}?lang=en#so3")
-        yield page
 
 
 def test_a_problem_file_is_opened(page):

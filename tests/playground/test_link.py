@@ -12,7 +12,7 @@ from benchmarks.playground import packed
 from tests.playground.test_moving import MOTION, STATE, adjuster, until
 from tests.support import in_node
 from tests.support.played import text_of
-from tests.support.playground_site import chosen, moving, opened, visit, walked
+from tests.support.playground_site import another, chosen, moving, opened, visit, walked
 
 LINK = 'import { asked, placed } from "./src/link.js";'
 SEEN = [
@@ -134,10 +134,10 @@ def test_a_problem_alone_moves_and_what_cannot_is_read(fresh, site):
     chosen(fresh, "jelly")
     fresh.wait_for_selector("iframe[data-moved]")
     own = packed(f"{text_of('pendulum')}\n")
-    with opened(fresh.context.browser) as other:
+    with another(fresh.context) as other:
         other.goto(f"{site}#p={own}")
         other.wait_for_selector("iframe[data-moved]", timeout=90_000)
-    with opened(fresh.context.browser) as other:
+    with another(fresh.context) as other:
         other.goto(f"{site}#p={packed('group = 1')}")
         walked(other, "fault")
         assert other.is_visible("#walk .fault")

@@ -5,7 +5,7 @@ import re
 import pytest
 
 from derive.command.cli import main
-from tests.support.playground_site import opened, violations, visit
+from tests.support.playground_site import another, violations, visit
 
 PLACE = "document.querySelector('#find > div:last-child').shadowRoot"
 STEPS = f"[...{PLACE}.querySelectorAll('article')].map((x) => x.id)"
@@ -24,8 +24,8 @@ def by_the_command(capsys, *words):
 
 
 @pytest.fixture(scope="module")
-def found(browser, site):
-    with opened(browser) as page:
+def found(reader, site):
+    with another(reader) as page:
         visit(page, f"{site}?lang=en#euler_top&tab=find", "euler_top")
         yield page
 
@@ -50,9 +50,8 @@ def test_nothing_is_wrong_for_screen_readers(found):
     assert violations(found) == []
 
 
-def test_what_is_refused_is_one_line_and_in_the_other_language(browser, site):
-    with opened(browser) as page:
-        visit(page, f"{site}?lang=fr#jelly&tab=find", "jelly")
-        assert page.inner_text("[data-search=equilibria]") == "Équilibres"
-        assert steps_found(page, "integrals") == []
-        assert page.evaluate(f"{PLACE}.querySelector('.fault').textContent").startswith("derive: ")
+def test_what_is_refused_is_one_line_and_in_the_other_language(fresh, site):
+    visit(fresh, f"{site}?lang=fr#jelly&tab=find", "jelly")
+    assert fresh.inner_text("[data-search=equilibria]") == "Équilibres"
+    assert steps_found(fresh, "integrals") == []
+    assert fresh.evaluate(f"{PLACE}.querySelector('.fault').textContent").startswith("derive: ")

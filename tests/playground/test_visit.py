@@ -12,9 +12,9 @@ from tests.support import in_node
 from tests.support.needs import need
 from tests.support.played import PENDULUM, UNKNOWN_KEY, text_of
 from tests.support.playground_site import (
+    another,
     chosen,
     first_walk,
-    opened,
     put,
     rewalked,
     served,
@@ -65,51 +65,51 @@ COPIES = """() => [...play.equations.root.querySelectorAll("article")].map(
     (x) => [...x.querySelectorAll(".number button")].map((y) => [y.ariaLabel, y.tabIndex]))"""
 
 
-def test_what_is_derived_is_read(fresh, site):
-    visit(fresh, f"{site}#so3")
-    assert first_walk(fresh.own, site) == READY | {"ready/so3.en.json.gz"}
+def test_what_is_derived_is_read(newcomer, site):
+    visit(newcomer, f"{site}#so3")
+    assert first_walk(newcomer.own, site) == READY | {"ready/so3.en.json.gz"}
     # steps are chosen, and lead to others; back and forward go to where the reader was
-    begun = entries(fresh)
-    fresh.select_option("#steps", "so3.kernel")
-    addressed(fresh, "#so3/so3.kernel")
-    in_sight(fresh, "so3.kernel")
-    article(fresh, "so3.kernel", "summary").first.click()
+    begun = entries(newcomer)
+    newcomer.select_option("#steps", "so3.kernel")
+    addressed(newcomer, "#so3/so3.kernel")
+    in_sight(newcomer, "so3.kernel")
+    article(newcomer, "so3.kernel", "summary").first.click()
     left = "so3.kernel", -20
-    fresh.evaluate("document.getElementById('walk').scrollBy(0, 20)")
-    in_sight(fresh, *left)
-    article(fresh, "so3.kernel", "details a").first.click()
-    fresh.wait_for_function("() => !location.hash.endsWith('/so3.kernel')")
-    second = fresh.url.rpartition("/")[2]
-    in_sight(fresh, second)
-    fresh.wait_for_function("(id) => document.getElementById('steps').value === id", arg=second)
-    assert entries(fresh) == begun + 2
-    fresh.go_back()
-    in_sight(fresh, *left)
-    addressed(fresh, "#so3/so3.kernel")
-    fresh.go_back()
-    fresh.wait_for_function("() => document.getElementById('walk').scrollTop < 5")
-    fresh.go_forward()
-    in_sight(fresh, *left)
+    newcomer.evaluate("document.getElementById('walk').scrollBy(0, 20)")
+    in_sight(newcomer, *left)
+    article(newcomer, "so3.kernel", "details a").first.click()
+    newcomer.wait_for_function("() => !location.hash.endsWith('/so3.kernel')")
+    second = newcomer.url.rpartition("/")[2]
+    in_sight(newcomer, second)
+    newcomer.wait_for_function("(id) => document.getElementById('steps').value === id", arg=second)
+    assert entries(newcomer) == begun + 2
+    newcomer.go_back()
+    in_sight(newcomer, *left)
+    addressed(newcomer, "#so3/so3.kernel")
+    newcomer.go_back()
+    newcomer.wait_for_function("() => document.getElementById('walk').scrollTop < 5")
+    newcomer.go_forward()
+    in_sight(newcomer, *left)
     # the equations alone; the page remembers that, and where the reader was
-    assert fresh.is_visible(".write")
-    fresh.click("#wide")
-    assert not fresh.is_visible(".write")
-    in_sight(fresh, *left)
-    with rewalked(fresh, "so3"):
-        fresh.reload()
-    in_sight(fresh, *left)
-    assert not fresh.is_visible(".write")
-    fresh.keyboard.press("F8")
-    assert fresh.is_visible(".write")
-    in_a_room(fresh)
+    assert newcomer.is_visible(".write")
+    newcomer.click("#wide")
+    assert not newcomer.is_visible(".write")
+    in_sight(newcomer, *left)
+    with rewalked(newcomer, "so3"):
+        newcomer.reload()
+    in_sight(newcomer, *left)
+    assert not newcomer.is_visible(".write")
+    newcomer.keyboard.press("F8")
+    assert newcomer.is_visible(".write")
+    in_a_room(newcomer)
     # a star leads to what is corrected
-    star = article(fresh, "linear.motions", ".printed a")
+    star = article(newcomer, "linear.motions", ".printed a")
     assert star.text_content() == "*"
     star.click()
-    assert fresh.url.endswith("#so3/linear.symplectic")
-    in_sight(fresh, "linear.symplectic")
-    assert article(fresh, "linear.symplectic", ".correction").count() == 1
-    assert article(fresh, "linear.symplectic", ".printed a").count() == 0
+    assert newcomer.url.endswith("#so3/linear.symplectic")
+    in_sight(newcomer, "linear.symplectic")
+    assert article(newcomer, "linear.symplectic", ".correction").count() == 1
+    assert article(newcomer, "linear.symplectic", ".printed a").count() == 0
 
 
 HEIGHTS = """[...document.querySelector(".screen > div").shadowRoot.querySelectorAll(
@@ -165,51 +165,51 @@ def in_a_room(page):
     assert page.is_visible("#walk")
 
 
-def test_what_is_now_is_seen_before_what_was(browser, site):
+def test_what_is_now_is_seen_before_what_was(fresh, site):
     """Of every step of a small body, on a small screen: what does not fit is the steps before it,
     which are there where they do."""
-    with opened(browser, viewport={"width": 1280, "height": 720}) as page:
-        visit(page, f"{site}?lang=fr#pendulum/linear.lagrangian&tab=walk", "pendulum")
-        page.keyboard.press("p")
-        seen = """() => {
-            const x = document.querySelector(".screen"), steps = x.firstElementChild.shadowRoot;
-            const was = [...steps.querySelectorAll(".was")].map((y) => y.hidden);
-            return [x.scrollHeight > x.clientHeight, was];
-        }"""
-        found = []
-        while "pendulum.explicit" not in page.inner_text("#projector header"):
-            found.append(page.evaluate(seen))
-            page.keyboard.press("PageDown")
-        assert len(found) > 40
-        assert [x for over, x in found if over and not all(x)] == []
-        assert any(any(x) for _, x in found)
-        assert sum(x == [False, False] for _, x in found) > len(found) / 2
+    fresh.set_viewport_size({"width": 1280, "height": 720})
+    visit(fresh, f"{site}?lang=fr#pendulum/linear.lagrangian&tab=walk", "pendulum")
+    fresh.keyboard.press("p")
+    seen = """() => {
+        const x = document.querySelector(".screen"), steps = x.firstElementChild.shadowRoot;
+        const was = [...steps.querySelectorAll(".was")].map((y) => y.hidden);
+        return [x.scrollHeight > x.clientHeight, was];
+    }"""
+    found = []
+    while "pendulum.explicit" not in fresh.inner_text("#projector header"):
+        found.append(fresh.evaluate(seen))
+        fresh.keyboard.press("PageDown")
+    assert len(found) > 40
+    assert [x for over, x in found if over and not all(x)] == []
+    assert any(any(x) for _, x in found)
+    assert sum(x == [False, False] for _, x in found) > len(found) / 2
 
 
 WALK = """play.equations.root.innerHTML.replace(/href="[^"]*"/g, "")"""
 """The walk but for the addresses of its steps."""
 
 
-def test_it_opens_on_a_body_that_moves_and_its_equations(fresh, site):
+def test_it_opens_on_a_body_that_moves_and_its_equations(newcomer, site):
     """Without Python, which comes when the problem is changed; what that walks is the same."""
-    fresh.goto(site)
-    walked(fresh, "top")
-    fresh.wait_for_selector("iframe[data-moved]")
-    assert fresh.inner_text("#answer h2") == "Equations of motion"
-    assert fresh.locator("#answer p math").count() == 5
-    fresh.wait_for_selector("iframe[data-kept]", state="attached")
-    own = {x.removeprefix(site).partition("#")[0] for x in fresh.own if x.startswith(site)}
+    newcomer.goto(site)
+    walked(newcomer, "top")
+    newcomer.wait_for_selector("iframe[data-moved]")
+    assert newcomer.inner_text("#answer h2") == "Equations of motion"
+    assert newcomer.locator("#answer p math").count() == 5
+    newcomer.wait_for_selector("iframe[data-kept]", state="attached")
+    own = {x.removeprefix(site).partition("#")[0] for x in newcomer.own if x.startswith(site)}
     assert not own & PYTHON
     assert size({x or "index.html" for x in own}) < LIGHT
     made = [*(built() / "ready").iterdir()]
     kinds = (*LANGUAGES, "code")
     assert {x.name for x in made} == {f"{x}.{y}.json.gz" for x in ready_made() for y in kinds}
     assert max(x.stat().st_size for x in made) / 1e6 < EACH
-    stored = fresh.evaluate(WALK)
-    fresh.own.clear()
-    typed(fresh, f"{text_of('top')}\n")
-    assert fresh.evaluate(WALK) == stored
-    assert first_walk(fresh.own, site) == PYTHON
+    stored = newcomer.evaluate(WALK)
+    newcomer.own.clear()
+    typed(newcomer, f"{text_of('top')}\n")
+    assert newcomer.evaluate(WALK) == stored
+    assert first_walk(newcomer.own, site) == PYTHON
     assert size(READY | PYTHON) < MOST
 
 
@@ -217,7 +217,7 @@ def test_help_is_five_lines(fresh, site):
     visit(fresh, f"{site}#top", "top")
     fresh.click(".help summary")
     assert fresh.locator(".help li:visible").count() == 5
-    assert not violations(fresh)
+    assert not violations(fresh, ".help")
 
 
 def test_equations_are_copied(fresh, site):
@@ -341,7 +341,7 @@ def test_the_address_is_the_problem(fresh, site):
     with rewalked(fresh, "jelly"):
         fresh.go_back()
     # who gets the link sees the same; what is wrong in it is told
-    with opened(fresh.context.browser) as other:
+    with another(fresh.context) as other:
         visit(other, link, "own")
         in_sight(other, "mine.motion")
         assert text_in(other) == PENDULUM

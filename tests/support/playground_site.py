@@ -58,21 +58,37 @@ def asked(page, ask, **more):
     return how, [(kind, news) for kind, news in heard]
 
 
+DESK = {"viewport": {"width": 1280, "height": 800}, "locale": "en-GB"}
+
+
 @contextmanager
 def opened(browser, **how):
-    """A page, in English on a desk, with what was asked for, by itself and in all, and what it
-    complained of, which is nothing at the end."""
-    desk = {"viewport": {"width": 1280, "height": 800}, "locale": "en-GB"}
-    context = browser.new_context(**desk | how)
-    page = context.new_page()
+    """The page of a reader who comes for the first time, in English on a desk; see ``another``."""
+    context = browser.new_context(**DESK | how)
+    with another(context) as page:
+        yield page
+    context.close()
+
+
+@contextmanager
+def another(reader):
+    """A page, of a reader whose browser has kept the files and the code that it compiled, with what
+    was asked for, by itself and in all, and what it complained of, which is nothing at the end.
+    """
+    page = reader.new_page()
     page.asked, page.own, page.told = [], [], []
-    context.on("request", lambda x: page.asked.append(x.url))
+
+    def hear(request):
+        page.asked.append(request.url)
+
+    reader.on("request", hear)
     page.on("request", lambda x: page.own.append(x.url))  # not those of the worker of the service
     page.on("console", lambda x: page.told.append(x.text) if x.type == "error" else None)
     page.on("pageerror", lambda x: page.told.append(str(x)))
     yield page
     assert not page.told
-    context.close()
+    reader.remove_listener("request", hear)
+    page.close()
 
 
 def walked(page, what="so3"):
@@ -133,12 +149,15 @@ def moving(page):
     return frame
 
 
-def violations(place):
-    """What axe finds wrong in a page or a frame."""
+def violations(place, part=""):
+    """What axe finds wrong in a page or a frame, or in a part of it, which takes half as long: what
+    is of the page alone, as its landmarks, is not asked then."""
     axe = (OWN / "node_modules" / "axe-core" / "axe.min.js").read_text(encoding="utf-8")
     place.evaluate(f"{axe}; 0")
     found = place.evaluate(
-        "axe.run({ resultTypes: ['violations'], iframes: false }).then((x) => x.violations)"
+        "(part) => axe.run(part || document, { resultTypes: ['violations'], iframes: false })"
+        ".then((x) => x.violations)",
+        part,
     )
     return [
         (x["id"], [y["html"][:120] + y["failureSummary"] for y in x["nodes"][:3]]) for x in found
