@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from decimal import Decimal
 from fractions import Fraction
 from functools import partial
 from unicodedata import normalize
@@ -303,7 +304,8 @@ LONG = 10**9
 def rounded(t: Tree, language: Language) -> Tree:
     """A tree with its long numbers, as those of a mesh, to five digits."""
     if isinstance(t, (int, Fraction)) and max(abs(t.numerator), t.denominator) > LONG:
-        digits, _, power = f"{float(abs(Fraction(t))):.4e}".partition("e")
+        quotient = Decimal(abs(t.numerator)) / Decimal(t.denominator)  # beyond floats, too
+        digits, _, power = f"{quotient:.4e}".partition("e")
         near = -4 < int(power) < 5
         size = language.decimal(float(f"{digits}e{power if near else 0}"))
         size += "" if near else f"·{show(('pow', 10, int(power)))}"

@@ -92,6 +92,7 @@ class Play:
         from derive.views.html import fragment
         from derive.views.language import language
         from derive.views.latex import anchor
+        from derive.views.layout import as_read
         from derive.views.outline import system, title
 
         with self.refusals():
@@ -107,7 +108,7 @@ class Play:
             told["road"] = [*road(self.record, anchor)]
             self.tell("derived", told)
             found = corrections(self.record)
-            for piece in fragment([self.record], language=words, findings=found):
+            for piece in fragment([as_read(self.record)], language=words, findings=found):
                 self.tell("piece", piece)
             for line in faults(self.problem):
                 message = f"derive: {self.path.name}: {line}"

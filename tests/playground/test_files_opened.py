@@ -119,7 +119,7 @@ def test_a_mesh_becomes_the_body(page):
     assert not {"l", "m"} & {*made["parameters"]}
     assert made["name"] == "box"
     # it moves as it is, by its triangles; that is told, and can be undone
-    page.wait_for_selector("iframe[data-moved]", timeout=90_000)
+    page.wait_for_selector("iframe[data-moved]:not(.stale)", timeout=90_000)
     (part,) = page.frames[-1].evaluate(f"{MOTION}.scene.page.body.parts")
     (solid,) = part["solids"]
     assert len(solid["faces"]) == len(FACES)
