@@ -2,6 +2,7 @@
 fluid, and of both trivialisations."""
 
 import re
+from fractions import Fraction
 from unicodedata import normalize
 
 import numpy as np
@@ -12,7 +13,7 @@ import derive
 from derive.command.cli import main
 from derive.command.showing import ready_made
 from derive.language.show import show
-from derive.language.tree import nodes
+from derive.language.tree import neg, nodes
 from derive.pipeline import both_trivialisations, walk
 from derive.problem.toml import problem_of
 from derive.views.answer import (
@@ -20,12 +21,13 @@ from derive.views.answer import (
     answer_text,
     definitions,
     equations_of_motion,
+    rounded,
     steps_of_answer,
     summary,
 )
 from derive.views.answer import told as stations
 from derive.views.html import html
-from derive.views.language import LANGUAGES, language
+from derive.views.language import ENGLISH, LANGUAGES, language
 from derive.views.latex import latex
 from derive.views.layout import Reading
 from derive.views.outline import assumed, moving, system
@@ -297,3 +299,7 @@ def test_long_numbers_are_rounded_where_an_answer_is_seen(unit, lang):
             scale = 10.0 ** int(normalize("NFKC", power).replace("−", "-") or 0)
             factor = float(size) * scale * (-1 if sign == "−" else 1)
             assert factor == pytest.approx(exact, rel=5.1e-5)
+
+
+def test_a_number_beyond_floats_is_rounded_too():
+    assert rounded(-Fraction(12_345_678 * 10**400, 3), ENGLISH) == neg("4.1152·10⁴⁰⁶")

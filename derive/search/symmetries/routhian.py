@@ -320,7 +320,8 @@ class Routhian:
                 above = along(form[b], a) * below - along(below, a) * form[b]
                 above += along(below, b) * form[a] - along(form[a], b) * below
                 for k, c in enumerate(self.group.structure_constants[a][b]):
-                    above -= _polynomial(field(field.domain(sign * c))) * form[k] * below
+                    signed = field.domain(sign * c.numerator, c.denominator)
+                    above -= _polynomial(field(signed)) * form[k] * below
                 if len(above) > LONGEST:
                     return None
                 x = of.simplified(field(above) / field(below) ** 2)
