@@ -105,10 +105,11 @@ class Play:
             shown = answer_mathml(self.record, marks(seen), words)
             told["answer"] = [{"id": anchor(label), "shown": x} for label, x in shown]
             told["arrows"] = legend(self.record, seen, words)
-            told["road"] = [*road(self.record, anchor)]
+            read = as_read(self.record)
+            told["road"] = [*road(read, anchor)]
             self.tell("derived", told)
             found = corrections(self.record)
-            for piece in fragment([as_read(self.record)], language=words, findings=found):
+            for piece in fragment([read], language=words, findings=found):
                 self.tell("piece", piece)
             for line in faults(self.problem):
                 message = f"derive: {self.path.name}: {line}"
