@@ -107,7 +107,11 @@ def of_blocks(b: Balance) -> Iterator[Hypothesis]:
             factor = 1 - float((of * b.unexplained).sum()) / square
             told, rank = changed(words + place, factor, {})
             seen.append(factor * own)
-            yield Hypothesis(told, rank + 1, b.unexplained + (factor - 1) * of)
+            # without a mass no acceleration follows: that explains every code where nothing acts
+            mass = M + (factor - 1) * own
+            regular = np.linalg.matrix_rank(mass, tol=1e-9 * scale) == len(M)
+            if regular or place not in (IN_MASS, ""):
+                yield Hypothesis(told, rank + 1, b.unexplained + (factor - 1) * of)
         for said, other in others(b, own):
             if not any(np.allclose(other, x, rtol=1e-12, atol=1e-12 * scale) for x in seen):
                 seen.append(other)
