@@ -123,7 +123,7 @@ def test_a_place_on_r3_is_t_and_a_sum_has_no_brackets_in_it():
     d = walk(problem_of(own | {"parameters": {"m": 1.0, "k": 2.0}}))
     text = render(d, "text", answer=True)
     assert "cos(T₁)" in text
-    assert "T: the last column" in text
+    assert "T: last column" in text
     assert "A₁₄" not in text
     assert ("entry", "A", 1, 4) in {x for s in d.steps for e in s.equations for x in nodes(e.rhs)}
     summed = ("add", "a", ("mul", -1, ("add", ("mul", -1, "b"), ("mul", -2, "c"))))
