@@ -426,22 +426,24 @@ def _explicit_step(
     return (draft.step(equations, prose + seen),)
 
 
+def _numbers_of_metric(group: Group) -> dict[tuple[int, int], int]:
+    """The entries of C = ĀA that are numbers, where a factor is orthogonal: row and column → it."""
+    parts = (range(at, at + x.n) for at, x in group.places if skew(x))
+    return {(i, j): int(i == j) for own in parts for i, j in product(own, repeat=2)}
+
+
 def _metric(group: Group, A: Value) -> Value:
-    """C = ĀA, with the numbers that its entries are where a factor is orthogonal."""
+    """C, with the numbers that its entries are."""
     found = [[*row] for row in OPERATIONS["mul"](q.transposed(A), A)]
-    for offset, factor in group.places:
-        own = range(offset, offset + factor.n) if skew(factor) else ()
-        for i, j in product(own, repeat=2):
-            found[i][j] = Laurent.of(int(i == j))
+    for (i, j), number in _numbers_of_metric(group).items():
+        found[i][j] = Laurent.of(number)
     return q.matrix(found)
 
 
 def _orthogonality(group: Group, A: Value) -> list[tuple[Laurent, int]]:
-    """The entries of ĀA that are numbers where factors are orthogonal, by those of A."""
-    inner, found = OPERATIONS["mul"](q.transposed(A), A), []
-    for offset, factor in group.places:
-        own = range(offset, offset + factor.n) if skew(factor) else ()
-        found += [(Laurent.of(inner[i][j]), int(i == j)) for i in own for j in own if i <= j]
+    """The entries of C that are numbers, by those of A."""
+    inner, numbers = OPERATIONS["mul"](q.transposed(A), A), _numbers_of_metric(group)
+    found = [(Laurent.of(inner[i][j]), x) for (i, j), x in numbers.items() if i <= j]
     return [x for x in found if len(x[0].terms) > 1]
 
 
