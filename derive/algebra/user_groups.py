@@ -25,7 +25,12 @@ def group_of_basis(
     ``basis``: matrices over Q of one size n (linear), or n + 1 with last row zero (affine).
     """
     _shapes(action, basis)
-    _independent(basis)
+    rows: list[tuple[Fraction, ...]] = []
+    for a, e in enumerate(basis, 1):
+        rows.append(q.flatten(e))
+        if q.rank(tuple(rows)) < a:
+            why = "depends on those before it" if any(rows[-1]) else "is zero"
+            raise ValueError(f"element {a} of the basis {why}; leave it out")
     n = len(basis[0]) - (action == "affine")
     bare = Group(name, n, action, tuple(basis), draw.general_linear(n))
     _closed(bare)
@@ -91,15 +96,6 @@ def _shapes(action: str, basis: Sequence[Matrix]) -> None:
             f"the matrices move points of R^{n}; from R^2 to R^{LARGEST} are known"
             + line * (action == "affine" and n == 1)
         )
-
-
-def _independent(basis: Sequence[Matrix]) -> None:
-    rows: list[tuple[Fraction, ...]] = []
-    for a, e in enumerate(basis, 1):
-        rows.append(q.flatten(e))
-        if q.rank(tuple(rows)) < a:
-            why = "depends on those before it" if any(rows[-1]) else "is zero"
-            raise ValueError(f"element {a} of the basis {why}; leave it out")
 
 
 def _closed(g: Group) -> None:

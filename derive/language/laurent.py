@@ -7,7 +7,7 @@ from fractions import Fraction
 from functools import cached_property
 from typing import Any
 
-from .rational import FieldElement
+from .rational import FieldElement, summed
 from .tree import Tree, add, mul, names, plain, replaced
 
 Monomial = tuple[tuple[Tree, int], ...]
@@ -77,7 +77,7 @@ class Laurent(FieldElement):
         return bool(self.terms)
 
     def __add__(self, other: Laurent | Fraction | int) -> Laurent:
-        return _summed((*self.terms.items(), *Laurent.of(other).terms.items()))
+        return Laurent(summed((*self.terms.items(), *Laurent.of(other).terms.items())))
 
     def __mul__(self, other: Laurent | Fraction | int) -> Laurent:
         right = Laurent.of(other).terms
@@ -86,9 +86,11 @@ class Laurent(FieldElement):
         if right.keys() == {()}:
             return Laurent({m: p * right[()] for m, p in self.terms.items()})
         pairs = ((m, p, n, q) for m, p in self.terms.items() for n, q in right.items())
-        return _summed(
-            (_product(m, n) if m else n, q if p is ONE else p if q is ONE else p * q)
-            for m, p, n, q in pairs
+        return Laurent(
+            summed(
+                (_product(m, n) if m else n, q if p is ONE else p if q is ONE else p * q)
+                for m, p, n, q in pairs
+            )
         )
 
     def __eq__(self, other: object) -> bool:
@@ -107,13 +109,6 @@ class Laurent(FieldElement):
         return Laurent({tuple((s, -e) for s, e in m): 1 / q})
 
     inverse = property(reciprocal)
-
-
-def _summed(terms: Iterable[tuple[Monomial, Fraction]]) -> Laurent:
-    total: dict[Monomial, Fraction] = {}
-    for m, q in terms:
-        total[m] = total[m] + q if m in total else q
-    return Laurent(total)
 
 
 def _product(m: Monomial, n: Iterable[tuple[Tree, int]]) -> Monomial:

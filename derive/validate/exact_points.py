@@ -29,7 +29,7 @@ from ..check.values.evaluate import Environment, evaluate
 from ..check.values.residue import Degree, DegreeSource, degrees
 from ..language import rational as q
 from ..language.rational import Matrix
-from ..language.reserved import numbers_of_input, numbers_of_output, rate_of_mass
+from ..language.reserved import block_of, numbers_of_input, numbers_of_output, rate_of_mass
 from ..record.record import Derivation, Equation, RecordError
 from .chart import Chart, Numbers, ReducedChart, chart_of, circles
 from .straight_line import Measured
@@ -99,10 +99,7 @@ class Claims:
 
     def _factor(self, data: Mapping[str, Any]) -> Group:
         """What moves the place of a force or an output, or the block of a torque."""
-        body = self.record.problem.get("body", {}).get("points", [])
-        listed = [*body, *self.record.problem.get("places", [])]
-        at = listed[data["on"] - 1] if "on" in data else data
-        return self.group.places[int(at.get("block", 1)) - 1][1]
+        return self.group.places[block_of(self.record.problem, data) - 1][1]
 
     def point(self, seed: str, zero: tuple[str, ...] = ()) -> Point:
         """The point of a seed, some parameters 0; ``CodeError`` where the record has no value."""

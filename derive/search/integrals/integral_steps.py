@@ -6,7 +6,6 @@ from collections.abc import Iterable, Sequence
 from fractions import Fraction
 from typing import Any
 
-from ...algebra.groups import Group
 from ...language.limits import Refused, tell
 from ...language.tree import Tree, add, mul, neg, nodes, plain
 from ...problem.problem import Problem
@@ -62,14 +61,9 @@ def _reduced(
     kind = "poisson.group" if only else "poisson.advected"
     prose = draft.claim(kind, dimension=len(system.variables)) + _weights(result, draft)
     own = any(isinstance(x, tuple) and x[1] == "A" for x in system.variables)
-    if own and _has_relations(system.group):
+    if own and any(x.linear_basis and x.relations for _, x in system.group.places):
         prose += say("poisson.independent")
     return draft.step(equations, prose + (say("poisson.undriven") if driven else ()))
-
-
-def _has_relations(group: Group) -> bool:
-    """Are there relations between the entries of g, other than that some are numbers?"""
-    return any(x.linear_basis and x.relations for _, x in group.places)
 
 
 def _weights(result: IntegralsFound, draft: Draft) -> Prose:
