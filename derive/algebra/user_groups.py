@@ -11,7 +11,7 @@ from ..language.rational import Matrix
 from . import samplers as draw
 from .families import LARGEST, affine_basis, so_basis
 from .groups import Group
-from .samplers import Sampler, Source
+from .samplers import RandomSource, Sampler
 from .structure import direct_sum, rank
 
 # A group that the user gives by a basis of its Lie algebra: checked before it is used.
@@ -136,7 +136,7 @@ def of_matrices(name: str, basis: tuple[Matrix, ...]) -> Group:
     """The group with this basis, known at its unit alone: another element is one of the same."""
     unit = q.identity(len(basis[0]))
 
-    def sampler(random: Source, size: int) -> Matrix:
+    def sampler(random: RandomSource, size: int) -> Matrix:
         del random, size
         return unit
 

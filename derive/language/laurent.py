@@ -24,7 +24,7 @@ class OverlongError(ValueError):
     """A tree that has too many terms when it is multiplied out."""
 
 
-class Symbol(tuple[Any, ...]):
+class LaurentSymbol(tuple[Any, ...]):
     """A tree as a symbol: the same tuple, but its hash and how it is written, for which products
     and sums ask again and again, are found once."""
 
@@ -61,7 +61,7 @@ class Laurent(FieldElement):
     @classmethod
     def symbol(cls, name: Tree) -> Laurent:
         """The polynomial that is one symbol."""
-        return cls({((Symbol(name) if isinstance(name, tuple) else name, 1),): ONE})
+        return cls({((LaurentSymbol(name) if isinstance(name, tuple) else name, 1),): ONE})
 
     @classmethod
     def monomial(cls, factors: Iterable[tuple[Tree, int]], q: Fraction = ONE) -> Laurent:
@@ -120,7 +120,7 @@ def _product(m: Monomial, n: Iterable[tuple[Tree, int]]) -> Monomial:
 
 def _written(factor: tuple[Tree, int]) -> tuple[str, int]:
     symbol, exponent = factor
-    return symbol.text if isinstance(symbol, Symbol) else repr(symbol), exponent
+    return symbol.text if isinstance(symbol, LaurentSymbol) else repr(symbol), exponent
 
 
 # -- and trees ----------------------------------------------------------------------------------

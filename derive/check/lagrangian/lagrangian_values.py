@@ -19,7 +19,7 @@ from ...language.tree import Tree, nodes
 from ...record.record import Step
 from ..trials.meaning import NameValues, Values
 from ..trials.momenta_and_outputs import Observed
-from ..trials.phase_point import Family, Form, PhasePoint, TangentVector
+from ..trials.phase_point import Form, Nearby, PhasePoint, TangentVector
 from ..values.arithmetic import EPS, EPS_PRIME, ETA, EvaluationError, nilpotent, part
 from ..values.draws import part_of_velocity
 from ..values.evaluate import Environment, evaluate
@@ -271,7 +271,7 @@ def here(model: LagrangianModel) -> ReducedPoint:
     return ReducedPoint(model, model.t, model.g, q.inverted(model.g), model.Z)
 
 
-def on_family(model: LagrangianModel, family: Family) -> ReducedPoint:
+def on_family(model: LagrangianModel, family: Nearby) -> ReducedPoint:
     """The points of a family."""
     return ReducedPoint(model, family.t, family.g, model.undone(family), family.Z)
 
@@ -305,7 +305,7 @@ def functions(model: LagrangianModel) -> dict[str, Callable[..., Any]]:
         return part(member(here(model).connection(xi), head, env), 0)
 
     def curvature(head: Any, arguments: Any, env: Environment) -> Any:
-        def on(family: Family) -> Form:
+        def on(family: Nearby) -> Form:
             at = on_family(model, family)
             return lambda _, xi: member(at.connection(xi), head, env)
 

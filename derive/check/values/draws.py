@@ -10,7 +10,7 @@ from functools import cached_property
 from typing import Any
 
 from ...algebra.groups import Group
-from ...algebra.samplers import Source
+from ...algebra.samplers import RandomSource
 from ...language.intervals import pi as bounds_of_pi
 from ...language.rational import Matrix, flatten
 from ...language.reserved import suffixed
@@ -79,7 +79,7 @@ class Draws:
         self,
         problem: Mapping[str, Any],
         group: Group,
-        random: Source,
+        random: RandomSource,
         size: int,
         *,
         generic: bool = False,

@@ -23,7 +23,7 @@ from .all_integrals import (
 )
 from .degree_search import TooLargeError, how_many, unknowns
 from .lie_poisson import Level, LiePoisson, PoissonPolynomials
-from .parameter_cases import Case, grading
+from .parameter_cases import Stratum, grading
 from .reduced import NotReducedError, reduced, without_energy
 
 # The steps of a record that say what integrals there are.
@@ -207,7 +207,7 @@ def _rate(result: IntegralsFound, found: ParameterConditions, x: Condition, f: A
     }
     left, summed = algebra.derivative(terms), []
     for j, value in x.case.solved:
-        there = found.cases.polynomial_at(Case(((j, value),)), left)
+        there = found.cases.polynomial_at(Stratum(((j, value),)), left)
         zero = algebra.field.gens[j] - value
         quotient = {
             e: (left.get(e, algebra.field.zero) - there.get(e, algebra.field.zero)) / zero
@@ -227,7 +227,7 @@ def solved_letter(algebra: PoissonPolynomials, j: int, value: Any) -> tuple[Tree
     return name if name == "π" else ("par", name), algebra.number_tree(value)
 
 
-def case_tree(algebra: PoissonPolynomials, case: Case, *others: Any) -> Tree:
+def case_tree(algebra: PoissonPolynomials, case: Stratum, *others: Any) -> Tree:
     """The equations of a case: letters, each with its value; and others ``beside``, that vanish."""
     rows = [solved_letter(algebra, j, value) for j, value in case.solved]
     rows += [(algebra.number_tree(algebra.field(f)), 0) for f in others]

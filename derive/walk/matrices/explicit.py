@@ -21,7 +21,7 @@ from ...schema.body_kinds import MomentBody
 from ..chapter import Chapter, Draft, say
 from ..given.body_and_potentials import Potentials
 from ..given.inputs import External
-from .coordinates import Balance, by_relations, element, short_rates, solved
+from .coordinates import LinearSystem, by_relations, element, short_rates, solved
 from .rotation import AXES, Torque, diagonal, is_diagonal, principal, square, symbols
 from .separation import constant, linear
 from .specialisation import KernelOnGroup
@@ -150,7 +150,7 @@ def of_vectors(
             mass = values.names[name] = diagonal(principal(name, mass))
         load = values.of(rest)
         work = [values.of(e.rhs) for s in torque.steps for e in s.equations]
-        stage = Balance(mass, _entries(load), tuple(("entry", "ζ̇", i) for i in AXES))
+        stage = LinearSystem(mass, _entries(load), tuple(("entry", "ζ̇", i) for i in AXES))
         drift = values.of(sides["ẇ"]) if group.affine else ()
     except UNKNOWN:
         return ()
@@ -200,7 +200,7 @@ def of_lagrangian(
         M, load = values.of(sides["M"]), values.of(sides["β"])
     except UNKNOWN:
         return ()
-    stage = Balance(M, tuple(x for (x,) in load), tuple(("entry", "ζ̇", a) for a in span))
+    stage = LinearSystem(M, tuple(x for (x,) in load), tuple(("entry", "ζ̇", a) for a in span))
     side = problem.own_lagrangian.trivialisation
     return _explicit_step(draft, stage, values, False, group, side=side)
 
@@ -222,7 +222,7 @@ def _along(group: Group, covector: Iterable[Value]) -> list[Laurent]:
     return [*map(Laurent.of, found)]
 
 
-def _linear_in(rows: Sequence[Laurent], unknowns: tuple[Tree, ...]) -> Balance:
+def _linear_in(rows: Sequence[Laurent], unknowns: tuple[Tree, ...]) -> LinearSystem:
     """What vanishes, sorted: Σ M_ab x_b − β_a; ``ValueError`` where it is not linear in the x_b."""
     place = {x: b for b, x in enumerate(unknowns)}
     mass = [[Laurent.of(0) for _ in unknowns] for _ in rows]
@@ -238,12 +238,12 @@ def _linear_in(rows: Sequence[Laurent], unknowns: tuple[Tree, ...]) -> Balance:
                 mass[a][b] = mass[a][b] + rest
             else:
                 raise ValueError("not linear in the accelerations")
-    return Balance(tuple(map(tuple, mass)), tuple(load), unknowns)
+    return LinearSystem(tuple(map(tuple, mass)), tuple(load), unknowns)
 
 
 def _explicit_step(
     draft: Draft,
-    stage: Balance,
+    stage: LinearSystem,
     values: Substitution,
     idle: bool,
     group: Group,
@@ -289,7 +289,7 @@ def _orthogonality(group: Group, A: Value) -> list[tuple[Laurent, int]]:
     return [x for x in found if len(x[0].terms) > 1]
 
 
-def _seen(stage: Balance, values: Substitution, side: str) -> Prose:
+def _seen(stage: LinearSystem, values: Substitution, side: str) -> Prose:
     """Whether the velocity or its rate is constant, or the equations are linear."""
     if not any(stage.load):
         return say(f"explicit.{side}")
