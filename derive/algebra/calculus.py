@@ -55,13 +55,18 @@ def _between(before: Word, image: Expr, after: Word) -> Expr:
     return result * expr_of_word(after) if after else result
 
 
+def _apply_at(w: Word, k: int, image: Expr) -> Expr:
+    """The word with its k-th factor replaced; ``image``: of the plain letter."""
+    return _between(w[:k], image.bar if w[k][1] else image, w[k + 1 :])
+
+
 def leibniz(w: Word, delta: Image) -> Expr | None:
     """δw of a word w, by the product rule; ``None`` when all its letters are constant."""
     total: Expr | None = None
     for k, (letter, _) in enumerate(w):
         image = delta(letter)
         if image is not None:
-            term = _between(w[:k], image.bar if w[k][1] else image, w[k + 1 :])
+            term = _apply_at(w, k, image)
             total = term if total is None else total + term
     return total
 
