@@ -92,9 +92,10 @@ MATRICES = (
           "Steps", by_momenta.of_matrices),
     Stage("outputs", "problem group special.letters special.C solution.steps power c_u",
           "Steps", outputs.of_matrices),
-    Stage("own", "problem group body pullback.steps potentials external?",
+    Stage("particulars", "problem group body pullback.steps potentials external?",
           "Particulars", explicit.Particulars),
-    Stage("explicit", "own special driven solution.motion c_u", "Steps", explicit.of_matrices),
+    Stage("explicit", "particulars special driven solution.motion c_u",
+          "Steps", explicit.of_matrices),
 )
 """Every group but those of VECTORS: its relations, dϖ and kernel, solved."""
 
@@ -135,11 +136,11 @@ VECTORS = (
     Stage("basis", "group isometry.letters c", "Steps", coordinates.user_basis_step),
     Stage("outputs", "problem group isometry.letters isometry.C axial.hat_map motion power c_u",
           "Steps", outputs.of_vectors),
-    Stage("own", "problem group body pullback.steps potentials external?",
+    Stage("particulars", "problem group body pullback.steps potentials external?",
           "Particulars", explicit.Particulars),
-    Stage("explicit", "own torque axial.inertia motion tensor c_u",
+    Stage("explicit", "particulars torque axial.inertia motion tensor c_u",
           "Steps", explicit.of_vectors, "linear"),
-    Stage("explicit", "own torque centred.inertia motion tensor c_u",
+    Stage("explicit", "particulars torque centred.inertia motion tensor c_u",
           "Steps", explicit.of_vectors, "affine"),
 )
 """SO(3) and SE(3), by so(3) ≅ R³: Euler's equations, Kirchhoff's."""

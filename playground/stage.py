@@ -20,7 +20,7 @@ from itertools import repeat
 from pathlib import Path
 from typing import Any
 
-from derive.algebra.families import FAMILIES, Family, group
+from derive.algebra.families import FAMILIES, GroupFamily, group
 from derive.algebra.groups import Group
 from derive.code.languages import LANGUAGES
 from derive.code.options import ADDED, CHOICES, DEPENDENT, REPEATED
@@ -165,7 +165,7 @@ def vectors(own: type[Table]) -> set[str]:
     return {*found} - apart | ({"at"} if apart or "at" in own.names() else set())
 
 
-def named_groups() -> Iterator[tuple[Family, str]]:
+def named_groups() -> Iterator[tuple[GroupFamily, str]]:
     """Every named group, by its family and its name."""
     for name, family in FAMILIES.items():
         for n in range(family.least, family.most + 1):

@@ -16,7 +16,7 @@ from ..language.rational import Matrix
 from ..language.reserved import did_you_mean, near_name
 from . import samplers as draw
 from .groups import Group
-from .samplers import Sampler, Source
+from .samplers import RandomSource, Sampler
 
 Basis = tuple[Matrix, ...]
 
@@ -145,7 +145,7 @@ def affine_basis(linear: Sequence[Matrix], n: int) -> Basis:
 
 
 @dataclass(frozen=True)
-class Family:
+class GroupFamily:
     """A family of groups with a parameter n, by a basis and a sampler of their linear parts;
     ``affine``: with all translations.
 
@@ -184,33 +184,33 @@ def _sim(n: int) -> Sampler:
     return draw.product([_so(n), draw.dilations(n)])
 
 
-FAMILIES: dict[str, Family] = {
-    "SO": Family(so_basis, _so, 2, "rotations, ĀA = 1"),
-    "SE": Family(so_basis, _so, 2, "displacements, r ↦ A r + T with ĀA = 1", affine=True),
-    "R": Family(
+FAMILIES: dict[str, GroupFamily] = {
+    "SO": GroupFamily(so_basis, _so, 2, "rotations, ĀA = 1"),
+    "SE": GroupFamily(so_basis, _so, 2, "displacements, r ↦ A r + T with ĀA = 1", affine=True),
+    "R": GroupFamily(
         lambda n: (),
         lambda n: lambda random, size: q.identity(n),
         1,
         "translations, r ↦ r + T",
         affine=True,
     ),
-    "SL": Family(sl_basis, draw.special_linear, 2, "volume-preserving linear maps, det A = 1"),
-    "SAff": Family(
+    "SL": GroupFamily(sl_basis, draw.special_linear, 2, "volume-preserving linear maps, det A = 1"),
+    "SAff": GroupFamily(
         sl_basis, draw.special_linear, 2, "volume-preserving affine maps, SL(n) ⋉ Rⁿ", affine=True
     ),
-    "GL": Family(gl_basis, draw.general_linear, 2, "invertible linear maps"),
-    "Aff": Family(gl_basis, draw.general_linear, 2, "invertible affine maps", affine=True),
-    "Sp": Family(sp_basis, sp_sampler, 2, "symplectic maps of Rⁿ, n even", step=2),
-    "Sim": Family(
+    "GL": GroupFamily(gl_basis, draw.general_linear, 2, "invertible linear maps"),
+    "Aff": GroupFamily(gl_basis, draw.general_linear, 2, "invertible affine maps", affine=True),
+    "Sp": GroupFamily(sp_basis, sp_sampler, 2, "symplectic maps of Rⁿ, n even", step=2),
+    "Sim": GroupFamily(
         sim_basis, _sim, 2, "similarities: rotations, dilations, translations", affine=True
     ),
-    "UT": Family(
+    "UT": GroupFamily(
         ut_basis, draw.unitriangular, 2, "upper unitriangular maps; UT(3) is Heisenberg's"
     ),
-    "U": Family(
+    "U": GroupFamily(
         u_basis, lambda n: draw.by_cayley(u_basis(n)), 1, "unitary maps of Cⁿ = R²ⁿ", doubled=True
     ),
-    "SU": Family(su_basis, su_sampler, 2, "unitary maps of Cⁿ = R²ⁿ, det = 1", doubled=True),
+    "SU": GroupFamily(su_basis, su_sampler, 2, "unitary maps of Cⁿ = R²ⁿ, det = 1", doubled=True),
 }
 """Name of a family → the family."""
 
@@ -291,7 +291,7 @@ def turning_about_a_point() -> Group:
     turn = _so(3)
     basis = tuple(conjugated(draw.block_diagonal((e, ((Fraction(0),),)))) for e in so_basis(3))
 
-    def sampler(random: Source, size: int) -> Matrix:
+    def sampler(random: RandomSource, size: int) -> Matrix:
         return conjugated(draw.block_diagonal((turn(random, size), ((Fraction(1),),))))
 
     return Group("SO(3) about a point", 3, "affine", basis, sampler)

@@ -11,7 +11,7 @@ from typing import Any, Literal
 from ..language import rational as q
 from ..language.rational import Matrix
 from ..language.reserved import suffixed
-from .samplers import Sampler, Source, inner_sampler
+from .samplers import RandomSource, Sampler, inner_sampler
 from .structure import combined, commutator, sparse
 
 Relation = Literal["orthogonal", "unimodular"]
@@ -257,7 +257,7 @@ class Group:
         one = q.identity(self.n)
         return one if normal == q.scaled(normal[0][0], one) else normal
 
-    def sample(self, random: Source, size: int = 9) -> Matrix:
+    def sample(self, random: RandomSource, size: int = 9) -> Matrix:
         """A random exact rational element of the group, from integers within ±size."""
         return self.sampler(random, size)
 
@@ -272,7 +272,7 @@ class Group:
         """Are exact elements of the least algebraic group that contains it known?"""
         return self._inner_sampler is not None
 
-    def sample_inside(self, random: Source, size: int = 9) -> Matrix:
+    def sample_inside(self, random: RandomSource, size: int = 9) -> Matrix:
         """A random exact element of the least algebraic group that contains this one, on which the
         same polynomials vanish; ``ValueError`` where none are known."""
         if self._inner_sampler is None:

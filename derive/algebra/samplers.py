@@ -14,23 +14,23 @@ from ..language.rational import Matrix
 from ..language.univariate import derivative, division, polynomial_value, square_free
 
 
-class Source(Protocol):
+class RandomSource(Protocol):
     """A source of random numbers, as :class:`random.Random` is one."""
 
     def randint(self, a: int, b: int, /) -> Any:
         """A random integer from a to b."""
 
 
-Sampler = Callable[[Source, int], Matrix]
+Sampler = Callable[[RandomSource, int], Matrix]
 """(source, size) → a random element of a group, from integers within ±size."""
 
 
-def integer(random: Source, size: int) -> Any:
+def integer(random: RandomSource, size: int) -> Any:
     """A random integer within ±size, as a fraction or a number of the source's ring."""
     return Fraction(1) * random.randint(-size, size)
 
 
-def combination(random: Source, size: int, basis: Sequence[Matrix]) -> Matrix:
+def combination(random: RandomSource, size: int, basis: Sequence[Matrix]) -> Matrix:
     """A random element of a linear space of matrices, with integer coordinates on its basis."""
     return q.combine([integer(random, size) for _ in basis], basis)
 
@@ -53,7 +53,7 @@ def product(samplers: Sequence[Sampler]) -> Sampler:
     return lambda random, size: reduce(q.times, [draw(random, size) for draw in samplers])
 
 
-def triangular(random: Source, n: int, size: int, *, lower: bool) -> Matrix:
+def triangular(random: RandomSource, n: int, size: int, *, lower: bool) -> Matrix:
     """A random unitriangular n × n matrix, upper or ``lower``."""
     return tuple(
         tuple(
@@ -77,7 +77,7 @@ def special_linear(n: int) -> Sampler:
 def general_linear(n: int) -> Sampler:
     """A sampler of GL(n): any matrix; singular with probability ≤ n / size, then drawn again."""
 
-    def draw(random: Source, size: int) -> Matrix:
+    def draw(random: RandomSource, size: int) -> Matrix:
         while True:
             a = tuple(tuple(integer(random, size) for _ in range(n)) for _ in range(n))
             if q.rank(a) == n:
@@ -97,7 +97,7 @@ def exponentials(basis: Sequence[Matrix]) -> Sampler:
     products of n of which vanish."""
     n = len(basis[0])
 
-    def draw(random: Source, size: int) -> Matrix:
+    def draw(random: RandomSource, size: int) -> Matrix:
         N, power, total = combination(random, size, basis), q.identity(n), q.identity(n)
         for k in range(1, n):
             power = q.scaled(Fraction(1, k), q.times(power, N))
@@ -115,7 +115,7 @@ def dilations(n: int) -> Sampler:
 def affine(linear: Sampler, n: int) -> Sampler:
     """A sampler of [[A, T], [0, 1]] with A by a sampler of n × n matrices and any T."""
 
-    def draw(random: Source, size: int) -> Matrix:
+    def draw(random: RandomSource, size: int) -> Matrix:
         a = linear(random, size)
         shift = q.column(integer(random, size) for _ in range(n))
         return q.bordered(a, shift, Fraction(1))
@@ -164,7 +164,7 @@ class OneParameter:
     square: Fraction
     nilpotent: Matrix
 
-    def sample(self, random: Source, size: int) -> Matrix:
+    def sample(self, random: RandomSource, size: int) -> Matrix:
         """A random element."""
         total = q.scaled(Fraction(0), self.turning)
         base = Fraction(1) * random.randint(1, size)

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
 from itertools import combinations, pairwise
-from typing import Any, TypeVar
+from typing import Any
 
 from ..language import rational as q
 from ..language.rational import Matrix
@@ -15,7 +15,6 @@ from .samplers import block_diagonal
 
 # Matrices of which most entries are 0, as place → entry: those of a basis of a Lie algebra.
 
-K = TypeVar("K")
 Sparse = Mapping[tuple[int, int], Any]
 
 
@@ -26,13 +25,13 @@ def sparse(m: Matrix) -> Sparse:
 
 def commutator(a: Sparse, b: Sparse) -> Sparse:
     """ab − ba."""
-    return _sum([*_product(a, b), *((at, -x) for at, x in _product(b, a))])
+    return q.summed([*_product(a, b), *((at, -x) for at, x in _product(b, a))])
 
 
 def combined(weights: Sequence[Any], basis: Sequence[Sparse]) -> Sparse:
     """Σ w_a E_a."""
     pairs = zip(weights, basis, strict=True)
-    return _sum((at, w * x) for w, e in pairs if w for at, x in e.items())
+    return q.summed((at, w * x) for w, e in pairs if w for at, x in e.items())
 
 
 def _product(a: Sparse, b: Sparse) -> Iterable[tuple[tuple[int, int], Any]]:
@@ -42,14 +41,6 @@ def _product(a: Sparse, b: Sparse) -> Iterable[tuple[tuple[int, int], Any]]:
     for (i, k), x in a.items():
         for j, y in rows.get(k, ()):
             yield (i, j), x * y
-
-
-def _sum(terms: Iterable[tuple[K, Any]]) -> dict[K, Any]:
-    """The terms with those of one key together, without what is 0."""
-    total: dict[K, Any] = {}
-    for key, x in terms:
-        total[key] = total.get(key, 0) + x
-    return {key: x for key, x in total.items() if x}
 
 
 Combination = Mapping[int, Fraction]
@@ -105,7 +96,7 @@ def require_jacobi(brackets: Brackets, dimension: int) -> None:
     """``ValueError`` that names the triple, and what is left, where Jacobi's identity fails."""
     for triple in combinations(range(dimension), 3):
         a, b, c = triple
-        left = _sum(
+        left = q.summed(
             term
             for pair, last in (((a, b), c), ((b, c), a), ((c, a), b))
             for term in _with(brackets, brackets.get(pair, {}), last).items()
@@ -121,7 +112,7 @@ def require_jacobi(brackets: Brackets, dimension: int) -> None:
 def _with(brackets: Brackets, x: Combination, b: int) -> Combination:
     """[x, E_b]."""
     terms = ((k, c) for k, c in x.items())
-    return _sum((j, c * y) for k, c in terms for j, y in brackets.get((k, b), {}).items())
+    return q.summed((j, c * y) for k, c in terms for j, y in brackets.get((k, b), {}).items())
 
 
 def as_text(x: Combination) -> str:

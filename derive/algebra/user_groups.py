@@ -11,7 +11,7 @@ from ..language.rational import Matrix
 from . import samplers as draw
 from .families import LARGEST, affine_basis, so_basis
 from .groups import Group
-from .samplers import Sampler, Source
+from .samplers import RandomSource, Sampler
 from .structure import direct_sum, rank
 
 # A group that the user gives by a basis of its Lie algebra: checked before it is used.
@@ -25,7 +25,12 @@ def group_of_basis(
     ``basis``: matrices over Q of one size n (linear), or n + 1 with last row zero (affine).
     """
     _shapes(action, basis)
-    _independent(basis)
+    rows: list[tuple[Fraction, ...]] = []
+    for a, e in enumerate(basis, 1):
+        rows.append(q.flatten(e))
+        if q.rank(tuple(rows)) < a:
+            why = "depends on those before it" if any(rows[-1]) else "is zero"
+            raise ValueError(f"element {a} of the basis {why}; leave it out")
     n = len(basis[0]) - (action == "affine")
     bare = Group(name, n, action, tuple(basis), draw.general_linear(n))
     _closed(bare)
@@ -93,15 +98,6 @@ def _shapes(action: str, basis: Sequence[Matrix]) -> None:
         )
 
 
-def _independent(basis: Sequence[Matrix]) -> None:
-    rows: list[tuple[Fraction, ...]] = []
-    for a, e in enumerate(basis, 1):
-        rows.append(q.flatten(e))
-        if q.rank(tuple(rows)) < a:
-            why = "depends on those before it" if any(rows[-1]) else "is zero"
-            raise ValueError(f"element {a} of the basis {why}; leave it out")
-
-
 def _closed(g: Group) -> None:
     for a, x in enumerate(g.basis, 1):
         for b, y in enumerate(g.basis[: a - 1], 1):
@@ -140,7 +136,7 @@ def of_matrices(name: str, basis: tuple[Matrix, ...]) -> Group:
     """The group with this basis, known at its unit alone: another element is one of the same."""
     unit = q.identity(len(basis[0]))
 
-    def sampler(random: Source, size: int) -> Matrix:
+    def sampler(random: RandomSource, size: int) -> Matrix:
         del random, size
         return unit
 

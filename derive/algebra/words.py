@@ -175,12 +175,6 @@ class Expr:
         """Is the shape 1 × 1?"""
         return self.rows == 1 == self.cols
 
-    def _same(self, other: Expr) -> None:
-        if (self.rows, self.cols) != (other.rows, other.cols):
-            raise ValueError(
-                f"shapes {self.rows}×{self.cols} and {other.rows}×{other.cols} do not add"
-            )
-
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Expr):
             return NotImplemented
@@ -192,7 +186,10 @@ class Expr:
         return bool(self.terms)
 
     def __add__(self, other: Expr) -> Expr:
-        self._same(other)
+        if (self.rows, self.cols) != (other.rows, other.cols):
+            raise ValueError(
+                f"shapes {self.rows}×{self.cols} and {other.rows}×{other.cols} do not add"
+            )
         total = dict(self.terms)
         for key, c in other.terms.items():
             total[key] = total[key] + c if key in total else c

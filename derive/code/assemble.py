@@ -195,7 +195,12 @@ def _of_state(
     wanted = _outputs(lowering, chosen)
     group = lowering.reader.group
     momenta = momentum_state(lowering, group, chosen) if chosen.momenta else None
-    wanted |= _added(lowering, momenta, kept)
+    found = {**momenta.wanted} if momenta else {}
+    if lowering.reader.options.multiplier:
+        found["multiplier"] = [lowering.reader.number("θ")]
+    if kept:
+        found["conserved"] = EmittedQuantities(lowering).of(kept)
+    wanted |= {name: factored(lowering.graph, nodes) for name, nodes in found.items()}
     wanted |= outputs(lowering, chosen)
     wanted |= dynamics(lowering) if chosen.dynamics else {}
     if events:
@@ -204,18 +209,6 @@ def _of_state(
     if stepped:
         wanted |= {x: factored(lowering.graph, y) for x, y in stepped.functions.items()}
     return wanted, momenta, stepped
-
-
-def _added(
-    lowering: Lowering, momenta: MomentumState | None, kept: Mapping[str, Tree]
-) -> dict[str, list[Node]]:
-    """Name → outputs of the functions in momenta, of θ, and of what is kept."""
-    found = {**momenta.wanted} if momenta else {}
-    if lowering.reader.options.multiplier:
-        found["multiplier"] = [lowering.reader.number("θ")]
-    if kept:
-        found["conserved"] = EmittedQuantities(lowering).of(kept)
-    return {name: factored(lowering.graph, nodes) for name, nodes in found.items()}
 
 
 def _invariants_of_gauss(

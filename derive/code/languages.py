@@ -9,19 +9,8 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Any
 
+from . import program
 from .ellipsoid import BUNDLES, is_item
-from .program import (
-    TOLERANCE,
-    Check,
-    EmittedFunction,
-    Expression,
-    Load,
-    LoweringError,
-    Section,
-    SectionValues,
-    blocks,
-    is_negated,
-)
 
 # Expressions as text: precedence and numbers, nothing else.
 
@@ -46,11 +35,11 @@ class SourcePrinter:
     first: int = 0
     prefix: str = ""
 
-    def __call__(self, e: Expression) -> str:
+    def __call__(self, e: program.Expression) -> str:
         """An expression as source text."""
         return self._print(e)[0]
 
-    def _print(self, e: Expression) -> tuple[str, int]:
+    def _print(self, e: program.Expression) -> tuple[str, int]:
         if isinstance(e, (int, Fraction)):
             text = self.number(Fraction(e))
             return text, ATOM if e >= 0 and "/" not in text else SUM
@@ -68,20 +57,20 @@ class SourcePrinter:
             return f"{self.absolute}({self(e[1])})", ATOM
         if op == "none":
             return self.none.format(self(e[1])), ATOM
-        if op == "add" or is_negated(e):
+        if op == "add" or program.is_negated(e):
             return self._sum(operands if op == "add" else [e]), SUM
         if op == "mul":
             return "*".join(self._at(x, PRODUCT) for x in operands), PRODUCT
         return f"{self._at(e[1], PRODUCT)}/{self._at(e[2], ATOM)}", PRODUCT
 
-    def _at(self, e: Expression, level: int) -> str:
+    def _at(self, e: program.Expression, level: int) -> str:
         text, own = self._print(e)
         return text if own >= level else f"({text})"
 
     def _sum(self, terms: Sequence[Any]) -> str:
         text = ""
         for term in terms:
-            sign, size = ("-", term[2]) if is_negated(term) else ("+", term)
+            sign, size = ("-", term[2]) if program.is_negated(term) else ("+", term)
             shown = self._at(size, PRODUCT)
             text += f" {sign} {shown}" if text else shown if sign == "+" else f"-{shown}"
         return text
@@ -95,7 +84,9 @@ def decimal(q: Fraction, suffix: str = "") -> str:
     try:
         value = float(q)
     except OverflowError:
-        raise LoweringError("a number of the equations is larger than 1e308; scale it") from None
+        raise program.LoweringError(
+            "a number of the equations is larger than 1e308; scale it"
+        ) from None
     short = Fraction(repr(value)) == q  # a decimal number such as 9.81
     if short or max(abs(q.numerator), q.denominator) >= 10**6:
         return f"{value!r}{suffix}"
@@ -300,7 +291,7 @@ class Statements:
         """What writes expressions."""
         return replace(self.language.printer(self.real), prefix=self.prefix)
 
-    def function(self, f: EmittedFunction) -> dict[str, Any]:
+    def function(self, f: program.EmittedFunction) -> dict[str, Any]:
         """Name of a template's field → lines of text: loads, sections, outputs, checks."""
         printer = self.printer
         loads = [x for x in f.loads if x.array != "t"]
@@ -309,7 +300,7 @@ class Statements:
             "loads": [self._load(x, self.language.load) for x in loads if x.array != "u"],
             "input_loads": [self._load(x, self.language.load) for x in loads if x.array == "u"],
             "unpacked": {array: self._unpacked(array, f) for array in self.sizes},
-            "blocks": [self._block(x) for x in blocks(f)] if self.language.batch else [],
+            "blocks": [self._block(x) for x in program.blocks(f)] if self.language.batch else [],
             "sections": [self._section(s) for s in f.sections],
             "outputs": [self._wrapped(printer(e), TEXT - 12) for e in f.outputs],
             "titles": [self._comment(f.titles.get(i, "")) for i in range(len(f.outputs))],
@@ -318,7 +309,7 @@ class Statements:
             "operations": operations(f),
         }
 
-    def part(self, f: EmittedFunction, array: str = "") -> dict[str, list[str]]:
+    def part(self, f: program.EmittedFunction, array: str = "") -> dict[str, list[str]]:
         """Statements and outputs of what is a part of a function, with what it reads of an
         array."""
         written = self.function(f)
@@ -334,11 +325,11 @@ class Statements:
         real = self.language.reals[self.real]
         return self.language.declare.format(real=real, name=name, text=text)
 
-    def _load(self, x: Load, pattern: str) -> str:
+    def _load(self, x: program.Load, pattern: str) -> str:
         index = x.index + self.language.first
         return self._declared(x.name, pattern.format(array=x.array, index=index))
 
-    def _unpacked(self, array: str, f: EmittedFunction) -> str:
+    def _unpacked(self, array: str, f: program.EmittedFunction) -> str:
         """The names of all entries of an array with commas, _ for those that are not read."""
         names = ["_"] * self.sizes[array]
         for x in f.loads:
@@ -349,7 +340,7 @@ class Statements:
         listed = ", ".join(names) + "," * (len(names) == 1)
         return textwrap.fill(listed, TEXT - 8, subsequent_indent=" " * 8)
 
-    def _block(self, block: SectionValues) -> dict[str, Any]:
+    def _block(self, block: program.SectionValues) -> dict[str, Any]:
         """The lines of a block, of one state and of a batch, and its outputs."""
         told = self._section(block.section)
         values = [*told["comment"], *told["statements"]] if told["statements"] else []
@@ -364,15 +355,15 @@ class Statements:
             "outputs": block.outputs,
         }
 
-    def _loads(self, loads: Iterable[Load], pattern: str) -> list[str]:
+    def _loads(self, loads: Iterable[program.Load], pattern: str) -> list[str]:
         """Loads of a batch by ``pattern``; constants are the same for each of its states."""
         plain = self.language.load
         return [
             self._load(x, plain if x.array == "k" else pattern) for x in loads if x.array != "t"
         ]
 
-    def _section(self, s: Section) -> dict[str, Any]:
-        cost = operations(EmittedFunction((), (s,), ()))
+    def _section(self, s: program.Section) -> dict[str, Any]:
+        cost = operations(program.EmittedFunction((), (s,), ()))
         return {
             "comment": self._comment(f"{s.label}: {cost}" if s.label else cost, s.equation),
             "statements": [self._statement(v.name, v.expression) for v in s.values],
@@ -399,9 +390,9 @@ class Statements:
             text = f"(\n        {self._wrapped(text, TEXT - 10)}\n    )"
         return self._declared(name, text)
 
-    def _check(self, c: Check) -> dict[str, str]:
+    def _check(self, c: program.Check) -> dict[str, str]:
         """Value and scale, and by how much that is to be more than a part of this."""
-        printer, tolerance = self.printer, Fraction(TOLERANCE[self.real])
+        printer, tolerance = self.printer, Fraction(program.TOLERANCE[self.real])
         scale = printer(c.scale) if c.scale is not None else ""
         value = printer(c.value)
         value = f"({value})" if " " in value else value
@@ -417,6 +408,6 @@ def comment(text: str) -> str:
     return plain.replace("*/", "* /").replace("/*", "/ *").replace('"""', "'''")
 
 
-def operations(f: EmittedFunction) -> str:
+def operations(f: program.EmittedFunction) -> str:
     """The operation counts of a function in words."""
     return ", ".join(f"{n} {name}" for name, n in f.operations().items() if n) or "none"

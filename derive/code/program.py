@@ -398,7 +398,10 @@ def _placed(f: EmittedFunction) -> list[tuple[Section, list[int]]]:
     """The sections, cut where outputs are stored, each with the indices of these outputs."""
     loaded = {x.name for x in f.loads}
     read = [names([x]) for x in f.outputs]
-    pending = _equations(f)
+    starts = sorted({0, *f.titles})
+    pending = [
+        list(range(a, b)) for a, b in zip(starts, [*starts[1:], len(f.outputs)], strict=True)
+    ]
     known = {*loaded}
     seen: set[str] = set()
     found = []
@@ -422,12 +425,6 @@ def _placed(f: EmittedFunction) -> list[tuple[Section, list[int]]]:
             found.append((Section(section.label, section.equation, tuple(values)), []))
     rest = [i for equation in pending for i in equation]
     return [*found, (Section("", "", ()), rest)] if rest else found
-
-
-def _equations(f: EmittedFunction) -> list[list[int]]:
-    """The indices of a function's outputs, grouped by the equation they come from."""
-    starts = sorted({0, *f.titles})
-    return [list(range(a, b)) for a, b in zip(starts, [*starts[1:], len(f.outputs)], strict=True)]
 
 
 def _vectors(values: Iterable[Assignment]) -> list[Sequence[Assignment]]:

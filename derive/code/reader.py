@@ -4,12 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from functools import cached_property, partial
-from typing import Any
 
 from ..algebra.groups import Group
 from ..language import rational as q
 from ..language.rational import Matrix
-from ..language.reserved import numbers_of_input, suffixed
+from ..language.reserved import block_of, numbers_of_input, suffixed
 from ..language.tree import Tree, nodes
 from ..record.record import Derivation, Equation, Step
 from . import dense
@@ -73,7 +72,8 @@ class RecordReader:
                 self._given([name])
                 continue
             if entry["kind"] != "covector":
-                named = numbers_of_input(entry, self._acted_on(entry).n)
+                _, factor = self.group.places[block_of(self.record.problem, entry) - 1]
+                named = numbers_of_input(entry, factor.n)
                 self.forces.append(self._given(named))
                 continue
             moved = self.group.turns_space and self.group.affine
@@ -108,14 +108,6 @@ class RecordReader:
         self.inputs += names
         self.memo |= {("par", x): leaf for x, (leaf,) in zip(names, found, strict=True)}
         return found
-
-    def _acted_on(self, entry: Mapping[str, Any]) -> Group:
-        """The factor of the group on which a force or a torque acts; massless places come last."""
-        points = self.record.problem.get("body", {}).get("points", [])
-        listed = [*points, *self.record.problem.get("places", [])]
-        moved = listed[entry["on"] - 1] if "on" in entry else entry
-        _, factor = self.group.places[int(moved.get("block", 1)) - 1]
-        return factor
 
     def leaf(self, name: str, kind: str = "state") -> Node:
         """The leaf of a name: a state variable, an input, a parameter or the time, by ``kind``."""

@@ -124,7 +124,15 @@ class StateSpace:
     def along(self, a: int) -> Seeds:
         """The variation δg = g E_a, or E_a g, at constant ζ; a from 0."""
         e = self.member(a)
-        seeds = self._varied(e)
+        if self.right:
+            changes = q.times(e, self.values["A"])
+            pairs = zip(q.flatten(self.values["A"]), q.flatten(changes), strict=True)
+            seeds = {leaf: x for leaf, x in pairs if leaf.op == "leaf"}
+        else:
+            seeds = self._changed(e, "A", "T")
+        for chart in self.charts.values():
+            x = self.numbers[chart]
+            seeds |= dict(zip(x, slots.rates(self.graph, chart, x, e), strict=True))
         if self.tangent:  # δġ = g E_a Z
             seeds |= self._changed(q.times(e, self.hat(self.coordinates)), "α", "τ")
         return seeds
@@ -138,19 +146,6 @@ class StateSpace:
     def member(self, a: int) -> Matrix:
         """E_a as a matrix of nodes; a from 0."""
         return dense.numbers(self.graph, self.group.basis[a])
-
-    def _varied(self, e: Matrix) -> Seeds:
-        """The variation δg = g e, or e g, as derivatives of the leaves of g."""
-        if self.right:
-            changes = q.times(e, self.values["A"])
-            pairs = zip(q.flatten(self.values["A"]), q.flatten(changes), strict=True)
-            found = {leaf: x for leaf, x in pairs if leaf.op == "leaf"}
-        else:
-            found = self._changed(e, "A", "T")
-        for chart in self.charts.values():
-            x = self.numbers[chart]
-            found |= dict(zip(x, slots.rates(self.graph, chart, x, e), strict=True))
-        return found
 
     def _changed(self, e: Matrix, linear: str, shift: str) -> Seeds:
         """The leaves of these letters, where they have a value, for a change g e of g or of ġ."""

@@ -1,10 +1,11 @@
-"""The loops of a fluid on the torus for large N: their tables, what they cost, and their bodies,
-which the printers of routines write."""
+"""What acts from outside on a fluid on the torus, as its program reads it; and the loops of one for
+large N: their tables, what they cost, and their bodies, which the printers of routines write."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Mapping
+import textwrap
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Any, NamedTuple
@@ -12,12 +13,20 @@ from typing import Any, NamedTuple
 import mpmath
 
 from ..algebra.structure import Place, TorusLattice
+from ..language.derivatives import derivative
+from ..language.expression import names
+from ..language.show import show
+from ..language.tree import Tree
+from ..language.values import value
+from ..record.as_json import decode
+from ..record.record import Derivation
 from ..routines import PRINTERS, printer_of, text_of
+from .graph import Graph
 from .languages import Statements
-from .naming import ClaimedNames
+from .naming import ClaimedNames, plain_text
 from .options import Options
 from .program import EmittedFunction, Load, Program
-from .torus_forcing import EmittedForcing
+from .schedule import Scheduler, leaf_places
 
 TABLE = 7
 """The largest N of which C has a table of terms: at 9 the matrices take less time."""
@@ -28,7 +37,58 @@ DIGITS = 60
 """To so many cosines and pi are known before they are rounded: the same on every machine."""
 
 
-class Term(NamedTuple):
+@dataclass(frozen=True)
+class EmittedForcing:
+    """What acts from outside in a record: the names of the numbers of its input; ``damping``: a
+    coefficient for each power of |n|², 0 where there is none; ``parameters``: those in these."""
+
+    inputs: tuple[str, ...]
+    damping: tuple[Tree, ...]
+    parameters: tuple[str, ...]
+
+    @staticmethod
+    def of(d: Derivation, torus: TorusLattice) -> EmittedForcing:
+        """That of a record."""
+        told = {x["power"]: decode(x["coefficient"], "damping") for x in d.problem["damping"]}
+        inputs = (f"{x['name']}_{y}" for x in d.problem["inputs"] for y in torus.coefficients)
+        used = {name for t in told.values() for name in names(t)}
+        return EmittedForcing(
+            tuple(inputs),
+            tuple(told.get(p, 0) for p in range(max(told, default=-1) + 1)),
+            tuple(x for x in d.problem["parameters"] if x in used),
+        )
+
+    @property
+    def damping_slopes(self) -> tuple[Tree, ...]:
+        """The derivatives of the coefficients of damping by the parameters, power by power."""
+        leaves = [("par", x) for x in self.parameters]
+        return tuple(derivative(t, x) for t in self.damping for x in leaves)
+
+    def function(self, wanted: Sequence[Tree], claimed: ClaimedNames) -> EmittedFunction:
+        """A function of the parameters alone."""
+        graph = Graph()
+        known = {x: graph.leaf(x, "parameter") for x in self.parameters}
+        given = leaf_places(claimed, known.values(), "p")
+        found = [value(t, {}, known, graph.function, graph.num) for t in wanted]
+        return Scheduler(claimed, {}).function(found, given)
+
+    def described(self) -> tuple[str, ...]:
+        """In words, for the head of a file."""
+        found = ["and F = sum f(n) T_n is what acts from outside, where f(n) has"]
+        if self.inputs:
+            name = self.inputs[0].removesuffix("_re_1_0")
+            found.append(
+                f"the input {name}: Re and Im of its coefficients, in the order of the state;"
+            )
+        if self.damping:
+            size = {0: ""} | {p: f" |n|^{2 * p}" for p in range(1, len(self.damping))}
+            coefficients = ((p, plain_text(show(t))) for p, t in enumerate(self.damping) if t != 0)
+            told = [f"({t if t.isascii() else 'a number'}){size[p]}" for p, t in coefficients]
+            found += textwrap.wrap(f"the damping -({' + '.join(told)}) omega(n);", 88)
+        return tuple(found) if self.inputs or self.damping else ()
+
+
+class ConvolutionTerm(NamedTuple):
     """One of the terms of dω̂(n)/dt: c times the product of two coefficients, by their places in the
     state, and −1 for a conjugate."""
 
@@ -49,7 +109,7 @@ class Loops:
     names: frozenset[str]
     cosines: tuple[Fraction, ...]
     sines: tuple[Fraction, ...]
-    table: tuple[tuple[Term, ...], ...]
+    table: tuple[tuple[ConvolutionTerm, ...], ...]
     operations: Mapping[str, str]
     driven: bool = False
     damping: int = 0
@@ -95,7 +155,7 @@ def loops(torus: TorusLattice, names: Collection[str], forcing: EmittedForcing) 
     )
 
 
-def _terms(torus: TorusLattice, n: Place) -> tuple[Term, ...]:
+def _terms(torus: TorusLattice, n: Place) -> tuple[ConvolutionTerm, ...]:
     """The terms of dω̂(n)/dt, m and n − m together: their sines are opposite."""
     found = []
     with mpmath.workdps(DIGITS):
@@ -108,7 +168,7 @@ def _terms(torus: TorusLattice, n: Place) -> tuple[Term, ...]:
             (i, turned), (j, turned_too) = torus.position(m), torus.position(other)
             sine = _cosine(Fraction(crossed, torus.N) - Fraction(1, 4))
             c = -_rounded(sine * weight * torus.N / (2 * pi))
-            found.append(Term(i, j, -1 if turned else 1, -1 if turned_too else 1, c))
+            found.append(ConvolutionTerm(i, j, -1 if turned else 1, -1 if turned_too else 1, c))
     return tuple(found)
 
 

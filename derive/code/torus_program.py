@@ -28,8 +28,7 @@ from .program import EmittedFunction, LoweringError, Program
 from .requests import require_columns, require_options
 from .schedule import Scheduler, by_numbers, frontier, leaf_places
 from .state_forms import of_plain_variations
-from .torus_forcing import EmittedForcing
-from .torus_loops import CONSERVED, TABLE, looped, loops
+from .torus_loops import CONSERVED, TABLE, EmittedForcing, looped, loops
 from .watched_functions import EmittedEvent, table, values_of
 
 

@@ -7,7 +7,7 @@ from fractions import Fraction
 from functools import cached_property
 from typing import Any
 
-from .rational import FieldElement
+from .rational import FieldElement, summed
 from .tree import Tree, add, mul, names, plain, replaced
 
 Monomial = tuple[tuple[Tree, int], ...]
@@ -24,7 +24,7 @@ class OverlongError(ValueError):
     """A tree that has too many terms when it is multiplied out."""
 
 
-class Symbol(tuple[Any, ...]):
+class LaurentSymbol(tuple[Any, ...]):
     """A tree as a symbol: the same tuple, but its hash and how it is written, for which products
     and sums ask again and again, are found once."""
 
@@ -61,7 +61,7 @@ class Laurent(FieldElement):
     @classmethod
     def symbol(cls, name: Tree) -> Laurent:
         """The polynomial that is one symbol."""
-        return cls({((Symbol(name) if isinstance(name, tuple) else name, 1),): ONE})
+        return cls({((LaurentSymbol(name) if isinstance(name, tuple) else name, 1),): ONE})
 
     @classmethod
     def monomial(cls, factors: Iterable[tuple[Tree, int]], q: Fraction = ONE) -> Laurent:
@@ -77,7 +77,7 @@ class Laurent(FieldElement):
         return bool(self.terms)
 
     def __add__(self, other: Laurent | Fraction | int) -> Laurent:
-        return _summed((*self.terms.items(), *Laurent.of(other).terms.items()))
+        return Laurent(summed((*self.terms.items(), *Laurent.of(other).terms.items())))
 
     def __mul__(self, other: Laurent | Fraction | int) -> Laurent:
         right = Laurent.of(other).terms
@@ -86,9 +86,11 @@ class Laurent(FieldElement):
         if right.keys() == {()}:
             return Laurent({m: p * right[()] for m, p in self.terms.items()})
         pairs = ((m, p, n, q) for m, p in self.terms.items() for n, q in right.items())
-        return _summed(
-            (_product(m, n) if m else n, q if p is ONE else p if q is ONE else p * q)
-            for m, p, n, q in pairs
+        return Laurent(
+            summed(
+                (_product(m, n) if m else n, q if p is ONE else p if q is ONE else p * q)
+                for m, p, n, q in pairs
+            )
         )
 
     def __eq__(self, other: object) -> bool:
@@ -109,13 +111,6 @@ class Laurent(FieldElement):
     inverse = property(reciprocal)
 
 
-def _summed(terms: Iterable[tuple[Monomial, Fraction]]) -> Laurent:
-    total: dict[Monomial, Fraction] = {}
-    for m, q in terms:
-        total[m] = total[m] + q if m in total else q
-    return Laurent(total)
-
-
 def _product(m: Monomial, n: Iterable[tuple[Tree, int]]) -> Monomial:
     exponents = dict(m)
     for symbol, e in n:
@@ -125,7 +120,7 @@ def _product(m: Monomial, n: Iterable[tuple[Tree, int]]) -> Monomial:
 
 def _written(factor: tuple[Tree, int]) -> tuple[str, int]:
     symbol, exponent = factor
-    return symbol.text if isinstance(symbol, Symbol) else repr(symbol), exponent
+    return symbol.text if isinstance(symbol, LaurentSymbol) else repr(symbol), exponent
 
 
 # -- and trees ----------------------------------------------------------------------------------

@@ -11,7 +11,9 @@ from collections.abc import Iterable, Sequence
 from fractions import Fraction
 from math import gcd, isqrt, lcm
 from operator import mul
-from typing import Any
+from typing import Any, TypeVar
+
+K = TypeVar("K")
 
 
 class RingElement:
@@ -77,6 +79,14 @@ def root(x: Fraction | int) -> Fraction | None:
     top, bottom = Fraction(x).as_integer_ratio()
     found = Fraction(isqrt(max(top, 0)), isqrt(bottom))
     return found if found * found == x else None
+
+
+def summed(terms: Iterable[tuple[K, Any]]) -> dict[K, Any]:
+    """Key → the sum of what stands with it, of those that are not 0."""
+    total: dict[K, Any] = {}
+    for key, x in terms:
+        total[key] = total[key] + x if key in total else x
+    return {key: x for key, x in total.items() if x}
 
 
 def dot(a: Iterable[Any], b: Iterable[Any]) -> Any:

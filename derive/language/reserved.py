@@ -138,6 +138,13 @@ def rate_of_mass(name: str) -> str:
     return f"{name}_dot"
 
 
+def block_of(problem: Mapping[str, Any], told: Mapping[str, Any]) -> int:
+    """The block of a product, from 1, on which acts what is ``told`` as in a record's problem, or
+    at which it is read; massless places come after the points."""
+    listed = [*problem.get("body", {}).get("points", ()), *problem.get("places", ())]
+    return int((listed[told["on"] - 1] if "on" in told else told).get("block", 1))
+
+
 def numbers_of_input(told: Mapping[str, Any], dimension: int) -> list[str]:
     """The names of the numbers of an input, which is ``told`` as in a record: as many as the
     ``dimension``, of 𝔤 or of the space of a force; one where there is a direction, of a torque in

@@ -70,8 +70,6 @@ class Medium:
 AMONG = 60
 """The most letters of a formula of a record that stands among words."""
 SIGNS = re.compile(r"\s*[.,;:]")
-RUNS_ON = ("(in ", "(the ", "by ", "for ", "says ", "times ")
-"""How a text begins, in English, before which no sign ends a display."""
 
 SHORT, SIGN = 7.0, re.compile(r" \S+ ")
 """The width, in em, below which a formula among words is not broken, and where it might be."""
@@ -267,9 +265,8 @@ class _Setter:
             return self.medium.aligned(whole.shown or whole.recorded)
         parts = [formula(y) for y in re.split(r",\s\s+", whole.text)]
         first = str(behind.texts[0][0]) if behind else ""
-        if not first.startswith(RUNS_ON):
-            goes_on = first[:1].islower() or (behind and behind.display)
-            parts[-1] += literal("," if goes_on else ".")
+        goes_on = first[:1].islower() or (behind and behind.display)
+        parts[-1] += literal("" if x.runs_on else "," if goes_on else ".")
         return self.medium.display(reduce(lambda x, y: x + literal(r",\qquad ") + y, parts))
 
     def words(self, text: Words) -> str:

@@ -3,7 +3,8 @@
 A chapter begins with ``chapter NAME``, its title in an English and a French line, and the records
 that its ties speak of.  A block is its head, ``KIND [LABEL] ["name"]``, and entries, each two
 spaces further in: a sentence in English and, below it, in French, or a display, ``= FORMULA``, the
-same in both; then what it rests on::
+same in both, with two spaces and … behind it where its sentence goes on without a comma; then
+what it rests on::
 
     < so3.kernel  (34)           the steps that prove it, and the numbers of the note
     < said                       it says what letters mean, or what is supposed
@@ -56,7 +57,7 @@ HEAD = re.compile(r'([a-z]+)(?: ([a-z_]+))?(?: "([^"]+)")?')
 NUMBERS = re.compile(r"\s*\((\d+(?:, \d+)*)\)$")
 RELATION = re.compile(r" [=≈≠<>≤≥∈↦→] ")
 FRESH = "  $ "
-LABELLED = re.compile(r"(?:@([a-z_]+) )?(.*)")
+LABELLED = re.compile(r"(?:@([a-z_]+) )?(.*?)(  …)?")
 ASKED = re.compile(r" ([=≈]) #([a-z]*)$")
 SAID, SOLVED, OPEN = "said", "solved", "open"
 
@@ -134,7 +135,7 @@ class Tie:
 class Entry:
     """A sentence in each language, or a display that is the same in all, with its ties; ``own``:
     what is said instead of a reader's body, its places not filled; ``fresh``: is it there for a
-    seed alone? ``label``: of a display that is cited."""
+    seed alone? ``label``: of a display that is cited; ``runs_on``: does no sign end the display?"""
 
     texts: tuple[Words, ...]
     ties: tuple[Tie, ...]
@@ -143,6 +144,7 @@ class Entry:
     own: tuple[Words, ...] = ()
     fresh: bool = False
     label: str = ""
+    runs_on: bool = False
 
     @property
     def formulas(self) -> tuple[Formula, ...]:
@@ -278,11 +280,11 @@ def _entry(lines: _Lines) -> Entry:
     line, first = lines.next()
     fresh = first.startswith(FRESH)
     first = first.replace(FRESH, "  ", 1) if fresh else first
-    display, label = first.startswith("  = "), ""
+    display, label, runs_on = first.startswith("  = "), "", False
     if display:
         labelled = LABELLED.fullmatch(first[4:].strip())
         assert labelled is not None
-        label, mark = labelled[1] or "", "?" if fresh else ""
+        label, runs_on, mark = labelled[1] or "", bool(labelled[3]), "?" if fresh else ""
         texts: Sequence[Words] = [words_of(f"`{mark}{labelled[2]}`")] * len(LANGUAGES)
     else:
         other = lines.next()[1]
@@ -293,7 +295,7 @@ def _entry(lines: _Lines) -> Entry:
     while lines.left and lines.left[0][1].startswith("  < "):
         number, text = lines.next()
         ties.append(_tie(text[4:].strip(), number, lines))
-    found = Entry(tuple(texts), tuple(ties), display, line, tuple(own), fresh, label)
+    found = Entry(tuple(texts), tuple(ties), display, line, tuple(own), fresh, label, runs_on)
     if len(own) not in (0, len(texts)):
         raise lines.wrong(line, "after ~ a sentence in each language")
     for one in (found, replace(found, texts=found.own)) if own else (found,):

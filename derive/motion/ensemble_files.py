@@ -20,18 +20,9 @@ from typing import IO, Any, Protocol
 
 import numpy as np
 
+from . import run
 from .ensemble import Ensemble, Part
 from .native import AT_EVENT, Integers
-from .run import (
-    COMMENT,
-    FORMATS,
-    Array,
-    Run,
-    RunFileError,
-    commented,
-    parquet_table,
-    pyarrow,
-)
 from .run import read as read_run
 
 MARK = "derive ensemble"
@@ -57,7 +48,7 @@ class _Npz:
     def __init__(self, file: IO[bytes], like: Ensemble):
         self.like, self.n, self.done = like, int(like.facts["motions"]), 0
         self.archive = zipfile.ZipFile(file, "w", zipfile.ZIP_STORED)
-        self.rest: list[tuple[Array, Integers, Array]] = []
+        self.rest: list[tuple[run.Array, Integers, run.Array]] = []
         self.shape = (self.n, len(like.t), len(like.names))
         self.member = self._member("states", self.shape, "<f8")
 
@@ -103,7 +94,8 @@ class _Table:
 
     def __init__(self, file: IO[bytes], like: Ensemble):
         self.file, self.like, self.done = file, like, 0
-        self.names = _columns(like)
+        varied = [f"varied_{x}" for x in like.varied_names]
+        self.names = ["motion", "status", *varied, "t", *like.names]
 
     def rows(self, part: Part) -> list[np.ndarray[Any, Any]]:
         """The columns of a part."""
@@ -126,7 +118,7 @@ class _Table:
 class _Csv(_Table):
     def __init__(self, file: IO[bytes], like: Ensemble):
         super().__init__(file, like)
-        file.write(f"{','.join(self.names)}\n{COMMENT}{_head(like)}\n".encode())
+        file.write(f"{','.join(self.names)}\n{run.COMMENT}{_head(like)}\n".encode())
 
     def add(self, part: Part) -> None:
         columns = [x.tolist() for x in self.rows(part)]
@@ -140,7 +132,7 @@ class _Csv(_Table):
 class _Parquet(_Table):
     def __init__(self, file: IO[bytes], like: Ensemble):
         super().__init__(file, like)
-        self.arrow, parquet = pyarrow()
+        self.arrow, parquet = run.pyarrow()
         whole = [("motion", self.arrow.int64()), ("status", self.arrow.int32())]
         fields = [*whole, *((x, self.arrow.float64()) for x in self.names[2:])]
         self.schema = self.arrow.schema(fields, {MARK: _head(like)})
@@ -183,22 +175,24 @@ def read(path: Path) -> Ensemble:
         if path.suffix == ".csv":
             return _from_csv(path)
         if path.suffix == ".parquet":
-            head, rows = parquet_table(path, MARK)
+            head, rows = run.parquet_table(path, MARK)
             return _of_rows(_header(head), rows)
-    except RunFileError:
+    except run.RunFileError:
         raise
     except OSError as error:
-        raise RunFileError(f"{path}: {error.strerror}") from None
+        raise run.RunFileError(f"{path}: {error.strerror}") from None
     except (ValueError, KeyError, TypeError, EOFError, zipfile.BadZipFile):
-        raise RunFileError(f"{path}: no ensemble that derive simulate wrote, or damaged") from None
-    raise RunFileError(f"{path}: the name of an ensemble must end in {', '.join(FORMATS)}")
+        raise run.RunFileError(
+            f"{path}: no ensemble that derive simulate wrote, or damaged"
+        ) from None
+    raise run.RunFileError(f"{path}: the name of an ensemble must end in {', '.join(run.FORMATS)}")
 
 
-def read_either(path: Path) -> Run | Ensemble:
+def read_either(path: Path) -> run.Run | Ensemble:
     """The run or the ensemble in a file; ``RunFileError`` where there is neither."""
     try:
         return read(path)
-    except RunFileError:
+    except run.RunFileError:
         return read_run(path)
 
 
@@ -215,12 +209,6 @@ def _header(head: str) -> dict[str, Any]:
     return told
 
 
-def _columns(like: Ensemble) -> list[str]:
-    """The names of the columns of a table; what is varied has a name of its own."""
-    varied = [f"varied_{x}" for x in like.varied_names]
-    return ["motion", "status", *varied, "t", *like.names]
-
-
 def _from_npz(path: Path) -> Ensemble:
     with np.load(path, allow_pickle=False) as found:
         told = _header(str(found["head"]))
@@ -230,7 +218,7 @@ def _from_npz(path: Path) -> Ensemble:
     return Ensemble(told["facts"], tuple(told["state"]), t, varied, status, states, end)
 
 
-def _mapped(path: Path, name: str) -> Array:
+def _mapped(path: Path, name: str) -> run.Array:
     """A member of an archive, which lies there as it is, as an array on the disk."""
     with zipfile.ZipFile(path) as archive, archive.open(name) as member:
         np.lib.format.read_magic(member)
@@ -246,11 +234,11 @@ def _mapped(path: Path, name: str) -> Array:
 
 def _from_csv(path: Path) -> Ensemble:
     with path.open(encoding="utf-8") as file:
-        told = _header(commented(file.readline(), file.readline()))
+        told = _header(run.commented(file.readline(), file.readline()))
         return _of_rows(told, np.loadtxt(file, delimiter=",", ndmin=2))
 
 
-def _of_rows(told: dict[str, Any], rows: Array) -> Ensemble:
+def _of_rows(told: dict[str, Any], rows: run.Array) -> Ensemble:
     t, names = np.array(told["t"]), tuple(told["state"])
     split = rows.reshape(-1, len(t), rows.shape[1])
     status, varied = split[:, 0, 1].astype(np.intc), split[:, 0, 2 : -1 - len(names)]

@@ -25,7 +25,7 @@ from typing import Any
 import numpy as np
 
 from .first_numbers import MotionError
-from .signals import InputFunction, Line
+from .signals import InputFunction, LinearSignal
 
 # Emitted C as a shared library: compiled by the compiler at hand, loaded once.
 
@@ -218,7 +218,7 @@ class Motion:
         """Make the next moves with other inputs, which may be a function of t and x."""
         k, _ = self._numbers()
         self._line, self._asked = None, None
-        if isinstance(u, Line):
+        if isinstance(u, LinearSignal):
             self._line = np.concatenate([[u.begin], u.values, u.rates])
         elif callable(u):
             self._asked = AskedInputs(u, len(self.x))

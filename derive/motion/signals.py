@@ -82,7 +82,7 @@ class Signals:
 
 
 @dataclass(frozen=True)
-class Line:
+class LinearSignal:
     """Inputs with constant ``rates`` (inputs,): those at the time ``begin`` are ``values``."""
 
     begin: float
@@ -128,7 +128,7 @@ class InputsInTime:
 
     def _of(self, k: int) -> InputFunction:
         """The inputs from a row on, as a function."""
-        line = Line(float(self.times[k]), self.rows[k], self.rates[k])
+        line = LinearSignal(float(self.times[k]), self.rows[k], self.rates[k])
         if not self.changes:
             return line
 

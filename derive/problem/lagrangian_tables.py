@@ -13,37 +13,17 @@ from dataclasses import replace
 from fractions import Fraction
 from typing import Any
 
+from ..algebra import structure
 from ..algebra.families import group, on_homogeneous
 from ..algebra.groups import Group
-from ..algebra.structure import (
-    Algebra,
-    Brackets,
-    TorusLattice,
-    as_text,
-    brackets_of,
-    faithful,
-    require_jacobi,
-    require_representation,
-)
 from ..algebra.user_groups import carrying, group_of_basis
 from ..language.derivatives import derivative
 from ..language.expression import names
 from ..language.limits import CARRIED, ROWS, TABLE
 from ..language.rational import Matrix
 from ..language.tree import Tree, add, mul, neg, nodes, plain
+from ..schema import kind
 from ..schema.force_kinds import CovectorInput, LaplacianDamping
-from ..schema.kind import (
-    REPRESENTATIONS,
-    SECTIONS,
-    Advected,
-    Inertia,
-    Lagrangian,
-    Parameter,
-    StatedAdvected,
-    StatedAlgebra,
-    StatedTorus,
-    TorusInertia,
-)
 from ..schema.table import Slot
 from .entries_on_orbit import (
     Direction,
@@ -153,26 +133,26 @@ GIVEN = ("of", "basis", "brackets")
 """The keys of [algebra], of which one says it."""
 
 
-def group_of_algebra(data: Mapping[str, Any]) -> tuple[Group, tuple[Advected, ...]]:
+def group_of_algebra(data: Mapping[str, Any]) -> tuple[Group, tuple[kind.Advected, ...]]:
     """The group of [algebra], and what [[advected]] tables say it carries along."""
     reader = AlgebraReader()
     if "group" in data or "action" in data:
         raise ProblemError("give either 'group' or [algebra]")
-    own = _algebra(reader.typed(StatedAlgebra, data["algebra"], "algebra"), data["algebra"])
+    own = _algebra(reader.typed(kind.StatedAlgebra, data["algebra"], "algebra"), data["algebra"])
     reader.represents(own)
     listed = data.get("advected", [])
     if not isinstance(listed, list) or not all(isinstance(x, dict) for x in listed):
         raise ProblemError("key 'advected' must be tables [[advected]]")
-    read = [reader.typed(StatedAdvected, x, f"advected {k}") for k, x in enumerate(listed, 1)]
+    read = [reader.typed(kind.StatedAdvected, x, f"advected {k}") for k, x in enumerate(listed, 1)]
     for k, x in enumerate(read, 1):
         if x.name in [y.name for y in read[: k - 1]] or x.name in ("zeta", "t"):
             raise ProblemError(f"advected {k}: {x.name!r} names something else; choose another")
         try:
-            require_representation(x.representation, own.brackets)
+            structure.require_representation(x.representation, own.brackets)
         except ValueError as error:
             raise ProblemError(f"advected {k}, representation: {error}") from None
     try:
-        stand = own.standard or faithful(own.brackets, own.dimension)
+        stand = own.standard or structure.faithful(own.brackets, own.dimension)
     except ValueError as error:
         raise ProblemError(f"algebra: {error}") from None
     found = carrying(own.name, own.dimension, stand, [x.representation for x in read])
@@ -181,10 +161,10 @@ def group_of_algebra(data: Mapping[str, Any]) -> tuple[Group, tuple[Advected, ..
             f"advected: the matrices of the algebra and of all that it carries have {found.n} "
             f"rows together; at most {CARRIED}"
         )
-    return found, tuple(Advected(name=x.name, size=len(x.representation[0])) for x in read)
+    return found, tuple(kind.Advected(name=x.name, size=len(x.representation[0])) for x in read)
 
 
-def _algebra(given: StatedAlgebra, table: Mapping[str, Any]) -> Algebra:
+def _algebra(given: kind.StatedAlgebra, table: Mapping[str, Any]) -> structure.Algebra:
     if len([key for key in GIVEN if key in table]) != 1:
         raise ProblemError(f"algebra: give one of {', '.join(GIVEN)}")
     if "dimension" in table and "brackets" not in table:
@@ -196,10 +176,10 @@ def _algebra(given: StatedAlgebra, table: Mapping[str, Any]) -> Algebra:
     except ValueError as error:
         raise ProblemError(f"algebra, {'of' if given.of else 'basis'}: {error}") from None
     own = (on_homogeneous(moved) if moved.affine else moved).in_user_basis
-    return Algebra(own.name, own.dimension, _sparse(own.structure_constants), own.basis)
+    return structure.Algebra(own.name, own.dimension, _sparse(own.structure_constants), own.basis)
 
 
-def _by_brackets(given: StatedAlgebra) -> Algebra:
+def _by_brackets(given: kind.StatedAlgebra) -> structure.Algebra:
     largest = max((i for *indices, _ in given.brackets for i in indices), default=1)
     dimension = given.dimension or largest
     if largest > dimension:
@@ -207,14 +187,14 @@ def _by_brackets(given: StatedAlgebra) -> Algebra:
     if dimension > TABLE:
         raise ProblemError(f"algebra: {dimension} elements; at most {TABLE}")
     try:
-        brackets = brackets_of(given.brackets)
-        require_jacobi(brackets, dimension)
+        brackets = structure.brackets_of(given.brackets)
+        structure.require_jacobi(brackets, dimension)
     except ValueError as error:
         raise ProblemError(f"algebra, brackets: {error}") from None
-    return Algebra("G", dimension, brackets)
+    return structure.Algebra("G", dimension, brackets)
 
 
-def _sparse(table: Sequence[Matrix]) -> Brackets:
+def _sparse(table: Sequence[Matrix]) -> structure.Brackets:
     """The table without what is 0."""
     return {
         (a, b): {k: x for k, x in enumerate(own) if x}
@@ -237,7 +217,7 @@ def on_torus(data: Mapping[str, Any]) -> bool:
 
 
 def torus_problem(
-    data: Mapping[str, Any], reader: FileReader, parameters: Mapping[str, Parameter]
+    data: Mapping[str, Any], reader: FileReader, parameters: Mapping[str, kind.Parameter]
 ) -> Problem:
     """The problem of a file; ``ProblemError`` for what else it says."""
     for key in data:
@@ -248,13 +228,13 @@ def torus_problem(
                 f"key {key!r}: {known}; leave it out"
                 + ", or give the force as an [[input]], and in time by a [[signal]]" * acts
             )
-    algebra = reader.typed(StatedTorus, data["algebra"], "algebra")
+    algebra = reader.typed(kind.StatedTorus, data["algebra"], "algebra")
     if algebra.of != "torus":
         raise ProblemError(f'algebra, of: with N it is "torus", not {algebra.of[:40]!r}')
-    torus = TorusLattice(algebra.N)
+    torus = structure.TorusLattice(algebra.N)
     if "inertia" not in data:
         raise ProblemError('the torus needs its inertia: give [inertia] operator = "laplacian"')
-    given = reader.typed(TorusInertia, data["inertia"], "inertia")
+    given = reader.typed(kind.TorusInertia, data["inertia"], "inertia")
     if given.operator != "laplacian":
         raise ProblemError('inertia, operator: on the torus it is "laplacian", |n|² on T_n')
     if given.trivialisation != "right":
@@ -308,7 +288,7 @@ def _forcing(
 class AlgebraReader(FileReader):
     """Reads these tables; those of advected quantities after the algebra is known."""
 
-    def represents(self, algebra: Algebra) -> None:
+    def represents(self, algebra: structure.Algebra) -> None:
         """From here on the algebra is known."""
         self.algebra = algebra
 
@@ -336,14 +316,14 @@ class AlgebraReader(FileReader):
         """By its name, 'standard' where the file leaves it out, or a matrix for each element."""
         given = slot.table.get(slot.key, "standard")
         if isinstance(given, str):
-            name = self.choice(Slot({slot.key: given}, slot.key, slot.where), REPRESENTATIONS)
+            name = self.choice(Slot({slot.key: given}, slot.key, slot.where), kind.REPRESENTATIONS)
             try:
                 return tuple(self.algebra.representation(name))
             except ValueError as error:
                 raise ProblemError(f"{slot.path}: {error}") from None
         if not isinstance(given, list) or len(given) != self.algebra.dimension:
             raise ProblemError(
-                f"{slot.path}: expected {', '.join(REPRESENTATIONS)}, or a list of "
+                f"{slot.path}: expected {', '.join(kind.REPRESENTATIONS)}, or a list of "
                 f"{self.algebra.dimension} matrices, one for each element of the algebra"
             )
         where = f"{slot.path}, matrix {{}}"
@@ -362,10 +342,10 @@ class AlgebraReader(FileReader):
 # the coordinates of Z in the basis of 𝔤; of an algebra without g, those of what it carries along.
 
 
-def lagrangian(data: Mapping[str, Any], group: Group, reader: FileReader) -> Lagrangian:
+def lagrangian(data: Mapping[str, Any], group: Group, reader: FileReader) -> kind.Lagrangian:
     """The Lagrangian of the table [lagrangian] or [inertia] of a file; ``ProblemError`` where it is
     none, or its second derivative in the velocity is singular."""
-    (where, own), *others = ((x, own) for x, own in SECTIONS.items() if x in data)
+    (where, own), *others = ((x, own) for x, own in kind.SECTIONS.items() if x in data)
     if others:
         raise ProblemError("give either [lagrangian] or [inertia]")
     for name in data.get("parameters", {}):
@@ -383,7 +363,7 @@ def lagrangian(data: Mapping[str, Any], group: Group, reader: FileReader) -> Lag
             at = used_at(data, name)
             known = reader.state_names
             raise ProblemError(undeclared(name, at, reader.parameters, group, known))
-    found = of_inertia(table, group) if isinstance(table, Inertia) else table
+    found = of_inertia(table, group) if isinstance(table, kind.Inertia) else table
     if not any(t in coordinates(group) for t in nodes(found.L)):
         raise ProblemError(f"{where}: no coordinate of the velocity, as zeta_1, so no motion")
     if reader.advected is None:
@@ -396,7 +376,7 @@ def lagrangian(data: Mapping[str, Any], group: Group, reader: FileReader) -> Lag
     return _with_null_directions(found, group, reader, where)
 
 
-def of_inertia(given: Inertia, group: Group) -> Lagrangian:
+def of_inertia(given: kind.Inertia, group: Group) -> kind.Lagrangian:
     """½⟨ζ, 𝕀ζ⟩ + ⟨a, ζ⟩ − U as an expression; ``ProblemError`` where 𝕀 is not symmetric."""
     zeta, rows, span = coordinates(group), given.operator, range(group.dimension)
     if any(rows[a][b] != rows[b][a] for a in span for b in range(a)):
@@ -407,12 +387,12 @@ def of_inertia(given: Inertia, group: Group) -> Lagrangian:
         for b in span[a:]
     ]
     terms += [mul(x, z) for x, z in zip(given.momentum, zeta, strict=False)]
-    return Lagrangian(L=add(*terms, neg(given.U)), trivialisation=given.trivialisation)
+    return kind.Lagrangian(L=add(*terms, neg(given.U)), trivialisation=given.trivialisation)
 
 
 def _with_null_directions(
-    found: Lagrangian, group: Group, reader: FileReader, where: str
-) -> Lagrangian:
+    found: kind.Lagrangian, group: Group, reader: FileReader, where: str
+) -> kind.Lagrangian:
     """The same with the coordinates that are held, where ∂²ℓ/∂Z² is singular in directions that
     keep ℓ; ``ProblemError`` where it is so in others, or here in some and there in others."""
     zeta = coordinates(group)
@@ -426,7 +406,7 @@ def _with_null_directions(
         )
     quotient = Quotient(group, found.trivialisation, null)
     for direction in null:
-        name = as_text({k: x for k, x in enumerate(direction) if x})
+        name = structure.as_text({k: x for k, x in enumerate(direction) if x})
         if not vanishes(along([derivative(found.L, x) for x in zeta], direction)):
             raise ProblemError(
                 f"{where}: ∂²L/∂Z² is singular along {name}, and L is linear there, so that no "

@@ -20,22 +20,9 @@ from ..schema.body_kinds import Body, GivenBody, MomentBody
 from ..schema.kind import SECTIONS, Advected, Fluid, Parameter
 from ..schema.motion_kinds import OF_MASSES, OUTPUTS, ExpressionOutput, fault_of_gravity
 from ..schema.table import ATTACHED, Table
-from . import inertia
+from . import fields, inertia
 from .bodies import as_forces, body, forces, group_of, negative_stiffness_of, outputs, require_known
 from .entries_on_orbit import hessian, vanishes
-from .fields import (
-    LIKE_A_PLACE,
-    by_points,
-    called_here,
-    coordinates,
-    known_in_lagrangian,
-    names_in_forces,
-    out_of_place,
-    tables,
-    undeclared,
-    unread,
-    used_at,
-)
 from .file_reader import FileReader
 from .flows import flows_of, require_bodies_own
 from .inertia import doubt_of_metric, impossible, negative_mass
@@ -83,7 +70,7 @@ def load(path: Path, **allowed: bool) -> Problem:
             if path.suffix == ".toml"
             else "; a problem is a .toml file, and records (.json) are for check"
         )
-        raise ProblemError(f"{path}: not TOML: {unread(raw, error)}{kind}") from None
+        raise ProblemError(f"{path}: not TOML: {fields.unread(raw, error)}{kind}") from None
     except ValueError:  # Python reads no integer of thousands of digits
         raise ProblemError(f"{path}: {HUGE}") from None
     if _huge(data):
@@ -217,7 +204,7 @@ def _fluid(data: Mapping[str, Any], reader: FileReader) -> Problem:
 def _require_readable(data: Mapping[str, Any], where: str, on_algebra: bool) -> None:
     """``ProblemError`` for an output of what a problem without points has not."""
     others = [x for x in OUTPUTS if x not in (*OF_MASSES, ExpressionOutput.kind)]
-    for k, x in enumerate(tables(data, "output"), 1):
+    for k, x in enumerate(fields.tables(data, "output"), 1):
         placed = "y" not in x or {*ATTACHED} & {*x}
         if placed and (on_algebra or x.get("kind") in OF_MASSES):
             raise ProblemError(
@@ -232,9 +219,9 @@ def _know_velocity(data: Mapping[str, Any], said: Any, reader: FileReader) -> No
     """Let the reader know the side of Z, and, on the left, velocities of translation by what points
     call them, w, too, unless an input is called so."""
     reader.on_the_right = isinstance(said, dict) and said.get("trivialisation") == "right"
-    inputs = (str(x.get("name")).partition("_")[0] for x in tables(data, "input"))
+    inputs = (str(x.get("name")).partition("_")[0] for x in fields.tables(data, "input"))
     if reader.advected is None and not reader.on_the_right and "w" not in inputs:
-        reader.by_block |= {w: zeta for zeta, w in by_points(reader.moving()).items()}
+        reader.by_block |= {w: zeta for zeta, w in fields.by_points(reader.moving()).items()}
 
 
 def _without_points(
@@ -294,9 +281,9 @@ def _without_points(
 
 def _require_covectors(data: Mapping[str, Any]) -> None:
     """``ProblemError`` where something acts at a place, which an algebra does not move."""
-    acting = {f"force {k}": x for k, x in enumerate(tables(data, "force"), 1)}
-    acting |= {f"input {k}": x for k, x in enumerate(tables(data, "input"), 1)}
-    acting |= {f"damping {k}": x for k, x in enumerate(tables(data, "damping"), 1)}
+    acting = {f"force {k}": x for k, x in enumerate(fields.tables(data, "force"), 1)}
+    acting |= {f"input {k}": x for k, x in enumerate(fields.tables(data, "input"), 1)}
+    acting |= {f"damping {k}": x for k, x in enumerate(fields.tables(data, "damping"), 1)}
     for key, x in acting.items():
         if "covector" not in x and x.get("kind") not in ("covector", "scalar"):
             other = "[[force]] covector" if key.startswith("damping") else "a covector"
@@ -342,28 +329,32 @@ def _declared(problem: Problem, data: Mapping[str, Any]) -> None:
     used |= dict.fromkeys(x for x in stated if x not in given)
     for name in used:
         if name not in problem.parameters:
-            if name == "t" or LIKE_A_PLACE.fullmatch(name):
+            if name == "t" or fields.LIKE_A_PLACE.fullmatch(name):
                 known, timed = KNOWN[name == "t"], () if name != "t" else ("potential",)
-                where = used_at({k: x for k, x in data.items() if k not in timed}, name, "U")
+                where = fields.used_at({k: x for k, x in data.items() if k not in timed}, name, "U")
                 raise ProblemError(f"{where}: {name!r} is known in {known} alone")
             if numbers := _numbers_of(problem, name):
-                where = used_at({k: x for k, x in data.items() if k != "input"}, name)
+                where = fields.used_at({k: x for k, x in data.items() if k != "input"}, name)
                 raise ProblemError(
                     f"{where}: {name!r} is an input of {', '.join(numbers)}; one number "
                     'that forces alone know is an [[input]] of kind = "scalar"'
                 )
-            where, shown = used_at(data, name), name[:40]
+            where, shown = fields.used_at(data, name), name[:40]
             if problem.group and problem.lagrangian:
-                own = known_in_lagrangian(problem.group, problem.advected)
-                raise ProblemError(undeclared(name, where, problem.parameters, problem.group, own))
+                own = fields.known_in_lagrangian(problem.group, problem.advected)
+                raise ProblemError(
+                    fields.undeclared(name, where, problem.parameters, problem.group, own)
+                )
             acts = where.startswith(("force", "output")) and problem.group
-            of_state = names_in_forces(acts) if acts else []
+            of_state = fields.names_in_forces(acts) if acts else []
             if shown in of_state:  # which forces and moments know
-                where = used_at(data, name, "force", "moment")
-            if fault := out_of_place(problem, shown, where, of_state):
+                where = fields.used_at(data, name, "force", "moment")
+            if fault := fields.out_of_place(problem, shown, where, of_state):
                 raise ProblemError(f"{where}: {shown!r} {fault}")
             listed = [*problem.parameters, *of_state]
-            hint = called_here(shown, of_state, problem.group, listed, ".").removeprefix("; ")
+            hint = fields.called_here(shown, of_state, problem.group, listed, ".").removeprefix(
+                "; "
+            )
             other = f"{hint} Else " if hint else ""
             raise ProblemError(f"{where}: {shown!r} is not declared; {other}add it to [parameters]")
     moments = problem.body.parameters() if isinstance(problem.body, MomentBody) else {}
@@ -427,7 +418,7 @@ def doubts(p: Problem, given: Mapping[str, float], *, followed: bool = False) ->
         yield f"body: {why}"
     if p.group and p.lagrangian:
         L = p.lagrangian.L
-        second = hessian(L, coordinates(p.group))
+        second = hessian(L, fields.coordinates(p.group))
         doubt = "" if p.signed else doubt_of_metric(second, values)
         yield from (doubt,) * bool(doubt)
         slopes = (derivative(x, "t") for row in second for x in row if "t" in nodes(L))

@@ -108,14 +108,10 @@ class Translation:
         if type_ in OF_A_FLUID:
             raise ValueError(f"{name!r} is a field or an operator of a fluid, which SymPy has not")
         if type_ == SCALAR:
-            return sympy.Symbol(self._free(name), real=True)
+            return sympy.Symbol(f"{name}_" if name in self.apart else name, real=True)
         if isinstance(type_, str):
             return sympy.Symbol(name)
         return sympy.MatrixSymbol(name, *self.shape(type_))
-
-    def _free(self, name: str) -> str:
-        """The name, with _ behind it where a parameter has the same."""
-        return f"{name}_" if name in self.apart else name
 
     def shape(self, type_: Type) -> tuple[Any, Any]:
         """Rows and columns of what is of a type."""

@@ -245,7 +245,7 @@ class Reduced(Finding):
 
 
 @dataclass(frozen=True)
-class Conserved:
+class PolynomialIntegral:
     """A polynomial in the momenta Π_a and the entries of g that motions keep.
 
     ``tree``: as an operator tree (:mod:`derive.language.tree`).
@@ -273,7 +273,7 @@ class Special:
     ``integrals``, beside the generic ones; ``integrable``: is complete integrability proved?"""
 
     values: Mapping[sympy.Symbol, sympy.Expr]
-    integrals: tuple[Conserved, ...]
+    integrals: tuple[PolynomialIntegral, ...]
     integrable: bool
 
 
@@ -321,7 +321,7 @@ class FirstIntegrals(Finding):
         return tuple(map(_symbol, self.found.system.parameters))
 
     @cached_property
-    def energy(self) -> Conserved:
+    def energy(self) -> PolynomialIntegral:
         """The energy as a function of the variables, the first of the integrals."""
         algebra = self.found.system.algebra
 
@@ -329,20 +329,20 @@ class FirstIntegrals(Finding):
             terms = algebra.hamiltonian.items()
             return sum(self._number(c) * _monomial(self.x, e) for e, c in terms)
 
-        return Conserved(algebra.field_tree(algebra.hamiltonian), expression)
+        return PolynomialIntegral(algebra.field_tree(algebra.hamiltonian), expression)
 
     @cached_property
-    def casimirs(self) -> tuple[Conserved, ...]:
+    def casimirs(self) -> tuple[PolynomialIntegral, ...]:
         """The Casimirs."""
         return tuple(map(self._conserved, self.found.casimirs))
 
     @cached_property
-    def integrals(self) -> tuple[Conserved, ...]:
+    def integrals(self) -> tuple[PolynomialIntegral, ...]:
         """The energy, and the integrals that are no polynomials in it and the Casimirs."""
         return (self.energy, *map(self._conserved, self.found.integrals))
 
     @cached_property
-    def levels(self) -> Mapping[int, tuple[Conserved, ...]]:
+    def levels(self) -> Mapping[int, tuple[PolynomialIntegral, ...]]:
         """The number of a Casimir, from 0 → what motions keep where that vanishes alone."""
         return {x.casimir: tuple(map(self._conserved, x.integrals)) for x in self.found.levels}
 
@@ -356,7 +356,7 @@ class FirstIntegrals(Finding):
         algebra = x.system.algebra
         values = {self.p[j]: y.as_expr(*self.p) for j, y in x.case.solved}
         own = (*self.x, *map(_symbol, x.system.parameters))
-        kept = (Conserved(algebra.tree(f), partial(f.as_expr, *own)) for f in x.integrals)
+        kept = (PolynomialIntegral(algebra.tree(f), partial(f.as_expr, *own)) for f in x.integrals)
         return Special(values, (*kept,), x.proved.complete)
 
     @cached_property
@@ -369,9 +369,9 @@ class FirstIntegrals(Finding):
             for f in images
         )
 
-    def _conserved(self, f: Any) -> Conserved:
+    def _conserved(self, f: Any) -> PolynomialIntegral:
         tree = self.found.system.algebra.tree(f)
-        return Conserved(tree, lambda: f.as_expr(*self.x, *self.p))
+        return PolynomialIntegral(tree, lambda: f.as_expr(*self.x, *self.p))
 
     def _number(self, c: Any) -> Any:
         if self.p:

@@ -2,17 +2,9 @@
 
 from __future__ import annotations
 
+from . import kind
 from .body_kinds import Moments, Point, Solid
 from .force_kinds import INPUTS, Damping, Flow, StatedCovector, StatedForce
-from .kind import (
-    SECTIONS,
-    Fluid,
-    Kinematics,
-    StatedAdvected,
-    StatedAlgebra,
-    StatedTorus,
-    TorusInertia,
-)
 from .motion_kinds import Event, ExpressionOutput, Signal
 from .potential_kinds import kinds
 from .table import Table
@@ -22,12 +14,12 @@ def words() -> dict[str, type[Table]]:
     """Every table that has a word, by it."""
     listed = (
         *kinds().values(),
-        *SECTIONS.values(),
+        *kind.SECTIONS.values(),
         *INPUTS.values(),
-        StatedAlgebra,
-        StatedAdvected,
-        StatedTorus,
-        TorusInertia,
+        kind.StatedAlgebra,
+        kind.StatedAdvected,
+        kind.StatedTorus,
+        kind.TorusInertia,
         Damping,
         Flow,
         StatedForce,
@@ -35,8 +27,8 @@ def words() -> dict[str, type[Table]]:
         ExpressionOutput,
         Event,
         Signal,
-        Fluid,
-        Kinematics,
+        kind.Fluid,
+        kind.Kinematics,
         Point,
         Moments,
         Solid,

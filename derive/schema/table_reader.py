@@ -76,9 +76,13 @@ class TableReader(ABC):
         """A parameter, by a name that means nothing else."""
         where = f"parameter {name[:40]!r}"
         self.identifier(name, where)
+        self.not_taken(name, where)
+        return self.typed(Parameter, about, where)
+
+    def not_taken(self, name: str, where: str) -> None:
+        """Refuse a name that means something else in an expression."""
         if what := taken(name):
             raise self.fail(f"{where}: this is {what} in an expression; choose another name")
-        return self.typed(Parameter, about, where)
 
     def distinct(self, inputs: Sequence[Input], parameters: Collection[str]) -> None:
         """No two inputs of one name, and none with the name of a parameter, nor its numbers."""
@@ -88,12 +92,9 @@ class TableReader(ABC):
                 raise self.fail(f"input {k}: a second input {name!r}; give each its own name")
             if name in parameters:
                 raise self.fail(f"input {k}: {name!r} is a parameter as well; choose another name")
-            alone = name in numbers_of_input(inputs[k - 1].plain(), 2)
-            if alone and (what := taken(name)):
-                told = f"this is {what} in an expression; choose another name"
-                raise self.fail(f"input {k}, {name!r}: {told}")
-            numbers = re.compile(rf"{re.escape(name)}_[1-9][0-9]*")
-            if clash := next(filter(numbers.fullmatch, parameters), None):
+            if name in numbers_of_input(inputs[k - 1].plain(), 2):
+                self.not_taken(name, f"input {k}, {name!r}")
+            if clash := next((x for x in parameters if _numbers_of(x, name)), None):
                 told = f"{clash!r} is one of its numbers, and a parameter as well"
                 raise self.fail(f"input {k}, {name!r}: {told}; choose another name")
 
@@ -112,10 +113,7 @@ class TableReader(ABC):
         listed = [(f"force {k}", x.name, "a force") for k, x in enumerate(forces, 1) if x.name]
         listed += [(f"output {k}", x.name, "another output") for k, x in enumerate(outputs, 1)]
         for where, name, role in listed:
-            if what := taken(name):
-                raise self.fail(
-                    f"{where}, {name!r}: this is {what} in an expression; choose another name"
-                )
+            self.not_taken(name, f"{where}, {name!r}")
             for other, what in known.items():
                 if name == other or _numbers_of(name, other) or _numbers_of(other, name):
                     raise self.fail(

@@ -20,7 +20,7 @@ from ..language import rational as q
 from ..record.as_json import to_json
 from .chart import ReducedChart
 from .discrete_functions import DiscreteFunctions
-from .exact_points import Claims, Point, WithIntegrals
+from .exact_points import Claims, ExactPoint, WithIntegrals
 from .functions_of_state import (
     ExactJacobians,
     Given,
@@ -82,7 +82,7 @@ def compare(
     exact: Iterable[Fraction] = (),
     text: str = "",
     bound: float = BOUND,
-    kind: type[Comparison] | None = None,
+    kind: type[FileAtPoint] | None = None,
 ) -> Agreement:
     """The verdict on a module whose functions equal the record; ``CodeError`` where it cannot be
     read, or differs.
@@ -91,7 +91,7 @@ def compare(
     record and of ``text``, that of the files: they are the same at every run, and whoever writes a
     file cannot aim it at them. ``kind``: the comparison at one point.
     """
-    kind = kind or Comparison
+    kind = kind or FileAtPoint
     compare_names(module, claims)
     functions = {name: with_roots(f) for name, f in module.functions.items()}
     module = replace(module, functions=functions)
@@ -122,7 +122,7 @@ def _tested_sets(module: Module) -> list[tuple[str, ...]]:
 
 
 def _compare_at_zero(
-    kind: type[Comparison],
+    kind: type[FileAtPoint],
     module: Module,
     claims: Claims,
     literal: Literals,
@@ -137,7 +137,7 @@ def _compare_at_zero(
     kind(module, claims, literal, point).compare_all()
 
 
-class Comparison:
+class FileAtPoint:
     """The comparison of one module with the record at one exact point; ``measured``: its degrees
     are found as well."""
 
@@ -146,7 +146,7 @@ class Comparison:
         module: Module,
         claims: Claims,
         literal: Literals,
-        point: Point,
+        point: ExactPoint,
         *,
         measured: bool = False,
     ):

@@ -18,7 +18,7 @@ from itertools import zip_longest
 from random import Random
 from typing import Any
 
-from ..algebra.samplers import Source
+from ..algebra.samplers import RandomSource
 from ..check.lagrangian.kinematics_model import KinematicsModel
 from ..check.trials.trial_points import TrialPoints
 from ..check.values.arithmetic import EPS, nilpotent, part
@@ -31,7 +31,7 @@ from ..language.reserved import suffixed
 from ..record.as_json import decode
 from ..record.record import Derivation
 from .chart import Chart, Numbers, StateChart
-from .compare import SIZE, Agreement, Comparison, compare
+from .compare import SIZE, Agreement, FileAtPoint, compare
 from .exact_points import NAME as INTEGRALS
 from .exact_points import Claims, largest
 from .functions_of_state import require_defaults
@@ -96,7 +96,7 @@ class FilterClaims:
         """The point of a seed, some parameters 0."""
         return self._point(Random(seed), zero)
 
-    def _point(self, source: Source, zero: tuple[str, ...] = ()) -> FilterPoint:
+    def _point(self, source: RandomSource, zero: tuple[str, ...] = ()) -> FilterPoint:
         model = KinematicsModel(self.record.problem, self.group, source, self.size, Locus())
         model.parameters |= dict.fromkeys(zero, Fraction(0))
         d, estimate = range(self.group.dimension), model.estimate
@@ -151,7 +151,7 @@ class FilterClaims:
     """Those of a parameter."""
 
 
-class FilterComparison(Comparison):
+class FilterComparison(FileAtPoint):
     """The comparison of the code of an estimate with the record at one exact point."""
 
     claims: Any
@@ -226,7 +226,7 @@ class EmittedFiles:
             on_torus = cache(lambda: TorusClaims(d, whole, self.numbers))
             judge = partial(self._on_torus, on_torus)
         else:
-            judge = partial(self._compared, Comparison, Claims(d, self.chart, SIZE), whole)
+            judge = partial(self._compared, FileAtPoint, Claims(d, self.chart, SIZE), whole)
         return [self._report(names, judge, d) for names in self._groups()]
 
     def _groups(self) -> Iterator[tuple[str, ...]]:
@@ -279,7 +279,7 @@ class EmittedFiles:
         return found
 
     def _compared(
-        self, kind: type[Comparison], claims: Any, whole: str, names: tuple[str, ...]
+        self, kind: type[FileAtPoint], claims: Any, whole: str, names: tuple[str, ...]
     ) -> Agreement:
         return compare(self._module(names), claims, self.numbers, whole, kind=kind)
 

@@ -20,7 +20,7 @@ from typing import Any
 
 from ..algebra.factor_charts import QUATERNION, FactorChart
 from ..algebra.groups import Group
-from ..algebra.samplers import Sampler, Source, affine, blocks, by_cayley
+from ..algebra.samplers import RandomSource, Sampler, affine, blocks, by_cayley
 from ..check.trials.potential_accounts import at_invariants, nodes
 from ..check.trials.trial_points import AnyModel, TrialPoints, model_at, names_at
 from ..check.values.arithmetic import EvaluationError
@@ -29,7 +29,7 @@ from ..check.values.evaluate import Environment, evaluate
 from ..check.values.residue import Degree, DegreeSource, degrees
 from ..language import rational as q
 from ..language.rational import Matrix
-from ..language.reserved import numbers_of_input, numbers_of_output, rate_of_mass
+from ..language.reserved import block_of, numbers_of_input, numbers_of_output, rate_of_mass
 from ..record.record import Derivation, Equation, RecordError
 from .chart import Chart, Numbers, ReducedChart, chart_of, circles
 from .straight_line import Measured
@@ -39,7 +39,7 @@ PI = Fraction(math.pi)
 
 
 @dataclass(frozen=True)
-class Point:
+class ExactPoint:
     """An exact point: the ``arguments`` t, x and u of a call, g and Z = g⁻¹ġ behind them, and what
     the record says: the rates of x, the energy and, for a body turned in space, the tensor of
     inertia by its upper rows.
@@ -66,7 +66,7 @@ class Claims:
 
     def __init__(self, d: Derivation, chart: Chart, size: int):
         self.record, self.chart, self.size = d, chart, size
-        self._points: dict[tuple[str, tuple[str, ...]], Point] = {}
+        self._points: dict[tuple[str, tuple[str, ...]], ExactPoint] = {}
         self.scope = str(d.problem.get("group"))
         (group,) = TrialPoints(d.problem, 0).groups(self.scope)
         self.state = chart_of(group.in_user_basis, chart, d.problem)
@@ -99,12 +99,9 @@ class Claims:
 
     def _factor(self, data: Mapping[str, Any]) -> Group:
         """What moves the place of a force or an output, or the block of a torque."""
-        body = self.record.problem.get("body", {}).get("points", [])
-        listed = [*body, *self.record.problem.get("places", [])]
-        at = listed[data["on"] - 1] if "on" in data else data
-        return self.group.places[int(at.get("block", 1)) - 1][1]
+        return self.group.places[block_of(self.record.problem, data) - 1][1]
 
-    def point(self, seed: str, zero: tuple[str, ...] = ()) -> Point:
+    def point(self, seed: str, zero: tuple[str, ...] = ()) -> ExactPoint:
         """The point of a seed, some parameters 0; ``CodeError`` where the record has no value."""
         if (seed, zero) not in self._points:
             try:
@@ -113,7 +110,7 @@ class Claims:
                 raise CodeError(f"the record has no value: {error}") from None
         return self._points[seed, zero]
 
-    def _point(self, seed: str, zero: tuple[str, ...]) -> Point:
+    def _point(self, seed: str, zero: tuple[str, ...]) -> ExactPoint:
         random, problem = Random(seed), self.record.problem
         chosen = {"horizontal": True} if self.state.held else {}
         given = dict.fromkeys(zero, Fraction(0))
@@ -126,7 +123,7 @@ class Claims:
         if angles:
             model.elementary.values.update(angles)
         tensor = self._value("I", env)
-        return Point(
+        return ExactPoint(
             model.parameters,
             {"t": model.t, "x": x, "u": tuple(model.parameters[x] for x in self.inputs)},
             model.g,
@@ -235,7 +232,7 @@ def rational_quaternions(group: Group) -> Sampler:
     basis = tuple(group.linear_part(e) for e in group.linear_basis)
     root = by_cayley(basis)
 
-    def turns(random: Source, size: int) -> Matrix:
+    def turns(random: RandomSource, size: int) -> Matrix:
         a = root(random, size)
         return q.times(a, a)
 

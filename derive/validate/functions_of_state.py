@@ -42,7 +42,7 @@ from ..check.values.arithmetic import EPS, part
 from ..language import rational as q
 from ..language.rational import Matrix
 from .chart import EPSILON, ReducedChart, StateChart
-from .exact_points import Claims, Point
+from .exact_points import Claims, ExactPoint
 from .straight_line import Measured
 from .terms import Array, CodeError, DiffersError, Machine, Module
 
@@ -53,7 +53,9 @@ Run = Callable[[str, Sequence[Any]], Sequence[Any]]
 """(name, state) → the numbers of ``project``, or the summands of ``defect``, at a state."""
 
 
-def compare_drift(run: Run, draw: Callable[[], Fraction], state: StateChart, point: Point) -> str:
+def compare_drift(
+    run: Run, draw: Callable[[], Fraction], state: StateChart, point: ExactPoint
+) -> str:
     """The functions that were found right at a point, as text for a report; ``DiffersError`` where
     one is wrong.
 
@@ -109,7 +111,7 @@ def plain(state: StateChart) -> StateChart:
 
 
 def compare_attitude(
-    run: RunSized, require_equal: Require, state: StateChart, point: Point
+    run: RunSized, require_equal: Require, state: StateChart, point: ExactPoint
 ) -> tuple[str, ...]:
     """The names of the two functions, or of the first where angles count turns, each found right at
     the turns of a point."""
@@ -184,7 +186,7 @@ class ExactJacobians:
 
     machine: Machine
     state: StateChart
-    point: Point
+    point: ExactPoint
     given: Given
     outputs: int = 0
 
@@ -324,7 +326,7 @@ class FunctionsCalled:
     given: Given
     require: Require
     draw: Callable[[], Any]
-    point: Point
+    point: ExactPoint
     chart: Any
 
     def _same(self, name: str, found: Sequence[Any], wanted: Sequence[Any]) -> None:

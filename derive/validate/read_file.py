@@ -85,14 +85,14 @@ text."""
 
 
 @dataclass(frozen=True)
-class Reading:
+class FileRead:
     """What a file says, and what of it is not read."""
 
     module: Module
     unread: Beside
 
 
-def read(name: str, files: Mapping[str, str], prefix: str) -> Reading:
+def read(name: str, files: Mapping[str, str], prefix: str) -> FileRead:
     """The reading of a file of an emission, in C with the header that it includes; ``CodeError``
     says what cannot be read, and in which line."""
     language = LANGUAGES[PurePath(name).suffix]
@@ -101,12 +101,12 @@ def read(name: str, files: Mapping[str, str], prefix: str) -> Reading:
         loops = [(m[1], m[0]) for x in files.values() for m in LOOP.finditer(x)]
         plain = {x: LOOP.sub(lambda m: blank(m[0]), text) for x, text in files.items()}
         module, events = read_c(name, plain, prefix)
-        return Reading(module, [*loops, *(("events", x.text) for x in events)])
+        return FileRead(module, [*loops, *(("events", x.text) for x in events)])
     cookie = re.compile(r"[ \t\f]*#.*?coding[:=]")
     if language == "python" and any(map(cookie.match, text.split("\n")[:2])):
         raise CodeError("a line that names an encoding is not read")
     reader = Reader(language, tokens(SYNTAX[language], text, name), prefix)
-    return Reading(reader.module(), unread_text(reader, text))
+    return FileRead(reader.module(), unread_text(reader, text))
 
 
 def unread_text(reader: Reader, text: str) -> Beside:

@@ -103,10 +103,10 @@ def run(
     ``CodeError`` for what has no value, a division by zero among it.
     """
     names = {name: arguments[name] for name in f.arguments if name in arguments}
-    return Run(elementary, literal).body(f.body, names)[1]
+    return Interpreter(elementary, literal).body(f.body, names)[1]
 
 
-class Run:
+class Interpreter:
     """An interpreter of statements; a name is set once, in the body where it is seen."""
 
     def __init__(self, elementary: Elementary, literal: Literal):

@@ -18,6 +18,7 @@ from ..language.tree import Tree, add, coefficient, mul, names, neg, nodes, repl
 from ..record.record import ANY_GROUP, Derivation, Equation, Step
 from ..record.sentence import Prose, Sentence
 from .language import ENGLISH, Language
+from .layout import Reading
 from .outline import Letter, headline, latex_names, parameters, printed
 from .printing.letters import standard
 from .printing.sentences import dollars, prose
@@ -319,17 +320,20 @@ def rounded(t: Tree, language: Language) -> Tree:
 def answer_mathml(
     d: Derivation, marks: Mapping[Tree, str] | None = None, language: Language = ENGLISH
 ) -> tuple[tuple[str, str], ...]:
-    """The equations of motion: of each the label of the step that tells it, and its MathML, with
-    ≈ where a long number in it is rounded.
+    """The equations of motion as they are read: of each the label of the step that tells it, and
+    its MathML, with ≈ where a long number in it is rounded.
 
     ``marks``: tree → the ``data-arrow`` that it has where it stands; the equation of a vector whose
     entries are told stands among them, too, where a term of it is marked. In the plane A is told by
     its angle.
     """
-    by_its_angle = by_angle(d)
+    by_its_angle, reading = by_angle(d), Reading(d.problem, marks or ())
+
+    def exactly(t: Tree) -> Tree:
+        return by_its_angle(reading.tree(t))
 
     def turned(t: Tree) -> Tree:
-        return rounded(by_its_angle(t), language)
+        return rounded(exactly(t), language)
 
     names, marked = latex_names(d) | ANGLE, {turned(t): x for t, x in (marks or {}).items()}
     marked |= {neg(t): x for t, x in marked.items() if coefficient(t)[0] < 0}
@@ -344,7 +348,7 @@ def answer_mathml(
     def shown(e: Equation) -> Iterator[str]:
         planar = d.problem.get("group") in PLANE and e.lhs == "Ȧ"
         for x in ([*_of_angle(d)] if planar else []) or [e]:
-            near = turned(x.rhs) != by_its_angle(x.rhs)
+            near = turned(x.rhs) != exactly(x.rhs)
             relation = literal(r" \approx " if near else " = ")
             yield (typeset(turned(x.lhs)) + relation + typeset(turned(x.rhs))).plain().mathml()
 

@@ -17,6 +17,7 @@ from ..record.record import Derivation, Equation, Step
 from .answer import ANGLE, by_angle, equations_of_motion, steps_of_answer
 from .figure.scene import SIZES, along, basis_of, shifts, turns
 from .language import Language
+from .layout import Reading
 from .outline import latex_names
 from .printing.tex import COMMA_SPACE, formula, joined
 
@@ -251,11 +252,11 @@ def marks(found: Sequence[Arrow]) -> dict[Tree, str]:
 
 def legend(d: Derivation, found: Sequence[Arrow], language: Language) -> list[dict[str, str]]:
     """Of each arrow the letter or term that it is, as MathML, and what that means."""
-    typeset, turned = latex_names(d) | ANGLE, by_angle(d)
+    typeset, turned, read = latex_names(d) | ANGLE, by_angle(d), Reading(d.problem).tree
     meanings = {s.name: language.of(s.meaning).partition(", ‘")[0] for s in d.symbols}
     return [
         {
-            "shown": joined([formula(turned(t), typeset) for t in x.shown], COMMA_SPACE)
+            "shown": joined([formula(turned(read(t)), typeset) for t in x.shown], COMMA_SPACE)
             .plain()
             .mathml(),
             "meaning": meanings[x.of] if x.of else language.word(x.meaning),
@@ -266,12 +267,12 @@ def legend(d: Derivation, found: Sequence[Arrow], language: Language) -> list[di
 
 def drawn(d: Derivation, found: Sequence[Arrow], after: int) -> list[dict[str, Any]]:
     """What draws the arrows, as JSON has it; their numbers stand ``after`` so many others."""
-    turned = by_angle(d)
+    turned, read = by_angle(d), Reading(d.problem).tree
     return [
         {
             "number": i,
             "at": after + sum(len(y.entries) for y in found[: i - 1]) + 3 * k,
-            "label": ", ".join(show(turned(t)) for t in x.shown),
+            "label": ", ".join(show(turned(read(t))) for t in x.shown),
             "part": part,
             "scale": x.scale,
             **({"centre": True} if x.centre else {}),

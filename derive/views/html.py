@@ -13,6 +13,7 @@ from ..language.templating import environment
 from ..language.tree import Tree, nodes
 from ..record.record import Derivation, Equation, Step
 from ..record.vocabulary import RULES
+from . import outline
 from .answer import ANGLE, EXPANDED, Summary, by_angle
 from .book import MOTION, REGULAR, BookPart, Passage, book, corrections
 from .figure.drawing import svg
@@ -20,21 +21,6 @@ from .figure.scene import scene
 from .language import ENGLISH, Language, entries
 from .latex import anchor
 from .layout import ROOM, Quantifiers, clause, quantifier, quantifiers
-from .outline import (
-    PAPER,
-    TRANSPOSES,
-    Letter,
-    assumed,
-    capitalised,
-    conventions,
-    keys,
-    latex_names,
-    printed,
-    references,
-    road,
-    subtitle,
-    title,
-)
 from .paper.findings import PaperFinding
 from .printing.letters import NAMES, standard
 from .printing.sentences import inline, prose, spelt
@@ -103,13 +89,13 @@ def answer(x: Summary, notation: Notation | None = None, *, alone: bool = True) 
     """The equations of motion with what their letters are: a page, or, not ``alone``, what it has,
     to stand in another with the style sheet ``page.css``."""
     d, word, steps = x.record, x.language.word, tuple(step for _, step in x.blocks)
-    numbers = {key: str(k) for k, key in enumerate((y for s in steps for y in keys(s)), 1)}
+    numbers = {key: str(k) for k, key in enumerate((y for s in steps for y in outline.keys(s)), 1)}
     part = BookPart(d.name, "", "", steps, d, (), d)
     written = _PartFields(part, notation or Notation(), x.language, numbers, {}, {}, {})
     shown = {
         "language": x.language.name,
-        "title": visible(title(d, x.language)),
-        "about": visible(capitalised(subtitle(d, x.language))),
+        "title": visible(outline.title(d, x.language)),
+        "about": visible(outline.capitalised(outline.subtitle(d, x.language))),
         "words": {"names": word("Names"), "copy": word("copy the LaTeX")},
         "blocks": [(said, [*written.equations(step)]) for said, step in x.blocks],
         "names": [*map(written.letter, x.letters)],
@@ -146,25 +132,29 @@ def _shown(
 
     return {
         "language": language.name,
-        "title": visible(title(records[0], language)) if len(records) == 1 else word(MOTION),
-        "about": visible(capitalised(subtitle(records[0], language))) if len(records) == 1 else "",
-        "road": words(language.marked.word(road(records)), chosen),
+        "title": visible(outline.title(records[0], language))
+        if len(records) == 1
+        else word(MOTION),
+        "about": visible(outline.capitalised(outline.subtitle(records[0], language)))
+        if len(records) == 1
+        else "",
+        "road": words(language.marked.word(outline.road(records)), chosen),
         "conventions": " ".join(
             words(language.marked.word(x), chosen)
-            for x in (TRANSPOSES[chosen.transpose], conventions(records))
+            for x in (outline.TRANSPOSES[chosen.transpose], outline.conventions(records))
         ),
         "regular": words(word(REGULAR), chosen),
-        "paper": word(PAPER),
+        "paper": word(outline.PAPER),
         "words": {
-            "from": capitalised(word("from")),
-            "coordinates": capitalised(word("coordinates")),
+            "from": outline.capitalised(word("from")),
+            "coordinates": outline.capitalised(word("coordinates")),
             "names": word("Names"),
             "paper": word("paper {numbers}", numbers="").strip(),
             "copy": word("copy the LaTeX"),
             "moving": word("In motion"),
             "references": word("References"),
         },
-        "references": [x[1:] for x in references(records)],
+        "references": [x[1:] for x in outline.references(records)],
         "parts": [p.fields(equations) for p in written],
     }
 
@@ -174,7 +164,7 @@ def numbered(parts: Sequence[BookPart]) -> dict[str, str]:
     found = {}
     for i, part in enumerate(parts, 1):
         found[part.name] = str(i)
-        listed = (key for step in part.steps for key in keys(step))
+        listed = (key for step in part.steps for key in outline.keys(step))
         found |= {key: f"{i}.{k}" for k, key in enumerate(listed, 1)}
     return found
 
@@ -218,7 +208,7 @@ class _PartFields:
     @cached_property
     def names(self) -> Mapping[str, str]:
         """Name → LaTeX, of the part's record."""
-        return ANGLE | latex_names(self.part.source)
+        return ANGLE | outline.latex_names(self.part.source)
 
     def fields(self, shown: Equations) -> Fields:
         """What the template shows of the part, its steps one by one; ``shown``: label → the
@@ -241,7 +231,7 @@ class _PartFields:
         if drawn is None:
             return {"figure": "", "caption": ""}
         caption = words(self.language.marked.of(drawn.caption), self.notation)
-        titled = replace(drawn, title=title(self.part.source, self.language))
+        titled = replace(drawn, title=outline.title(self.part.source, self.language))
         return {"figure": svg(titled), "caption": caption}
 
     def step(self, step: Step, shown: Equations) -> Fields:
@@ -253,11 +243,12 @@ class _PartFields:
         return {
             "label": step.label,
             "id": anchor(step.label),
-            "rule": capitalised(self.language.word(step.rule)),
+            "rule": outline.capitalised(self.language.word(step.rule)),
             "told": words(self.language.marked.word(RULES[step.rule].sentence), self.notation),
-            "printed": printed(step),
+            "printed": outline.printed(step),
             "notes": [
-                words(x, self.notation, self.names) for x in assumed(step, self.language.marked)
+                words(x, self.notation, self.names)
+                for x in outline.assumed(step, self.language.marked)
             ],
             "corrections": [*map(self.correction, self.corrections[step.label].values())],
             "prose": words(self.language.marked.of(step.prose), self.notation, self.names),
@@ -353,7 +344,7 @@ class _PartFields:
         over = clause(e, self.names, every)
         return f"{shown} \\quad {plain(over)}" if over else shown
 
-    def letter(self, x: Letter) -> dict[str, str]:
+    def letter(self, x: outline.Letter) -> dict[str, str]:
         """A letter and its meaning."""
         told = escaped(x.meaning) if x.own else words(x.meaning, self.notation, self.names)
         about = told + x.after(self.language, lambda unit: escaped(f"[{unit}]"))

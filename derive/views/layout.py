@@ -33,21 +33,19 @@ OF_G = ("A", "Ȧ")
 MEANING = "{meaning}; its blocks are {blocks}"
 LAST = "{meaning}; {last}: last column of the matrix"
 ELEMENT = "element of the group"
-MOVED = re.compile(r"(R|SE)\(\d\)")
-"""Groups of one factor whose matrices may be those on (r, 1)."""
 CARRIED = "{meaning}; its components are {entries}"
 
 
 class Reading:
-    """How equations and sentences of a record are read, by its problem."""
+    """How equations and sentences of a record are read, by its problem; a sum with one of the terms
+    ``apart`` is not factored."""
 
-    def __init__(self, problem: Mapping[str, Any]):
-        name = str(problem["group"])
-        known = group(name) if " x " in name or MOVED.fullmatch(name) else None
-        places = known.places if known and len(known.places) > 1 else ()
-        self.count = len(places)
-        self.spans = [(at, at + x.size) for at, x in places]
-        self.named = (_entries(known) if known else {}) | _carried(problem)
+    def __init__(self, problem: Mapping[str, Any], apart: Collection[Tree] = ()):
+        self.apart = {*apart}
+        places = _factors(str(problem["group"]))
+        self.count = len(places) if len(places) > 1 else 0
+        self.spans = [(at, at + x.size) for at, x in places[: self.count]]
+        self.named = _entries(places) | _carried(problem)
         self.texts = {show(old): in_sentence(new) for old, new in self.named.items()}
         self.found = re.compile("|".join(rf"{re.escape(x)}(?!,?[₀-₉])" for x in self.texts))
 
@@ -57,7 +55,9 @@ class Reading:
             return t
         if t in self.named:
             return self.named[t]
-        found = factored(unfolded((t[0], *map(self.tree, t[1:]))))
+        found = unfolded((t[0], *map(self.tree, t[1:])))
+        if t[0] != "add" or self.apart.isdisjoint(t[1:]):
+            found = factored(found)
         return _by_blocks(found, self.spans) if t[0] == "matrix" else found
 
     def equation(self, e: Equation) -> Equation:
@@ -120,14 +120,24 @@ def _carried(problem: Mapping[str, Any]) -> dict[Tree, Tree]:
     return found
 
 
-def _entries(g: Group) -> dict[Tree, Tree]:
+def _factors(name: str) -> tuple[tuple[int, Group], ...]:
+    """The factors of a group by its name, one of which may act on (r, 1), each with its first row;
+    none of a group of the problem's own, or of any group."""
+    try:
+        places = group(name).places
+    except ValueError:
+        return ()
+    return places if len(places) > 1 or places[0][1].affine else ()
+
+
+def _entries(places: Sequence[tuple[int, Group]]) -> dict[Tree, Tree]:
     """Each entry of g by the rows and columns of the whole → by those of its block, of the last
     column of one that moves (r, 1) by those of T."""
     found: dict[Tree, Tree] = {}
-    for k, (at, x) in enumerate(g.places, 1):
+    for k, (at, x) in enumerate(places, 1):
         span, last = range(1, x.size + 1), x.n + 1 if x.affine else 0
         for letter, moved in zip(OF_G, ("T", "Ṫ"), strict=True):
-            several = len(g.places) > 1
+            several = len(places) > 1
             block, column = (("at", y, k) if several else y for y in (letter, moved))
             for i, j in product(span, repeat=2):
                 own = ("entry", column, i) if i < j == last else ("entry", block, i, j)

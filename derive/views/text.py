@@ -12,62 +12,39 @@ from itertools import groupby
 from ..language.show import in_quotes, show, show_name, unclear
 from ..language.tree import names
 from ..record.record import Derivation, Equation, Step, Symbol
+from . import outline
 from .language import ENGLISH, TABLE, Language, cell
 from .layout import blocks
-from .outline import (
-    PAPER,
-    TRANSPOSES,
-    Letter,
-    capitalised,
-    conventions,
-    domain,
-    headline,
-    latex_names,
-    moving,
-    named_numbers,
-    notes,
-    parameters,
-    plain_conventions,
-    quantified,
-    sections,
-)
+from .printing import typeset
 from .printing.letters import names_of, standard
 from .printing.sentences import QUOTED, dollars, prose
 from .printing.signs import NO_BREAK, markdown_text
-from .printing.typeset import (
-    COMMA,
-    FACTOR,
-    MARK,
-    ROW,
-    SUM,
-    WEDGE,
-    WIDTH,
-    Piece,
-    display_width,
-    fill,
-)
 
 MARGIN, EQUATION, INSIDE = 2, 6, 4
 NAME = 8
 OPENING, CLOSING = "([⟨", ")]⟩"
-BREAKS = {" + ": SUM, " − ": SUM, " ∧ ": WEDGE}
+BREAKS = {" + ": typeset.SUM, " − ": typeset.SUM, " ∧ ": typeset.WEDGE}
 
 
-def text(d: Derivation, width: int = WIDTH, *, language: Language = ENGLISH) -> str:
+def text(d: Derivation, width: int = typeset.WIDTH, *, language: Language = ENGLISH) -> str:
     """The record as text, no line longer than ``width`` columns (at least 40)."""
     width, quoted = max(width, 40), clashing(d)
     blocks = [
-        [*_underlined(headline(d, language), "=", width)],
-        [*paragraph(f"{plain_conventions(d, language)} {language.word(PAPER)}", 0, width)],
+        [*_underlined(outline.headline(d, language), "=", width)],
+        [
+            *paragraph(
+                f"{outline.plain_conventions(d, language)} {language.word(outline.PAPER)}", 0, width
+            )
+        ],
     ]
-    for section, steps in sections(d, language):
+    for section, steps in outline.sections(d, language):
         blocks.append([*_underlined(section, "-", width)])
         blocks.extend([*_step(step, width, quoted, language)] for step in steps)
     if d.symbols:
         blocks.append([*_underlined(language.word("Names"), "-", width)])
-        named = (Letter((s.name,), language.of(s.meaning)) for s in d.symbols)
+        named = (outline.Letter((s.name,), language.of(s.meaning)) for s in d.symbols)
         blocks.append([y for x in named for y in letter_lines(x, quoted, language, width)])
-    if own := [*parameters(d, language)]:
+    if own := [*outline.parameters(d, language)]:
         blocks.append([*_underlined(language.word("Parameters"), "-", width)])
         blocks.append([y for x in own for y in letter_lines(x, quoted, language, width)])
     return page(blocks)
@@ -81,7 +58,7 @@ def page(blocks: Iterable[Iterable[str]]) -> str:
 
 def step_text(
     step: Step,
-    width: int = WIDTH,
+    width: int = typeset.WIDTH,
     *,
     language: Language = ENGLISH,
     quoted: frozenset[str] = frozenset(),
@@ -91,19 +68,19 @@ def step_text(
     return "\n".join(line.rstrip() for line in lines) + "\n"
 
 
-def equation_text(e: Equation, width: int = WIDTH) -> str:
+def equation_text(e: Equation, width: int = typeset.WIDTH) -> str:
     """One equation as text, its lines at most ``width`` columns wide."""
     return textwrap.dedent("\n".join(equation_lines((e,), width, ENGLISH)))
 
 
 def letter_lines(
-    x: Letter, quoted: frozenset[str], language: Language, width: int
+    x: outline.Letter, quoted: frozenset[str], language: Language, width: int
 ) -> Iterator[str]:
     """The lines of letters with their meaning, with these parameters in quotes."""
     shown = (show_name(y) if isinstance(y, str) else show(in_quotes(y, quoted)) for y in x.names)
     names, column = ", ".join(shown), NAME - MARGIN - 1
     about = unquoted(x.meaning + x.after(language, "[{}]".format), quoted)
-    if display_width(names) > column:
+    if typeset.display_width(names) > column:
         first, *others = paragraph(f"{names}  {about}", NAME, width)
         yield first[NAME - MARGIN :]
     else:
@@ -118,7 +95,7 @@ def clashing(d: Derivation, letters: Iterable[str] | None = None) -> frozenset[s
     body = d.problem.get("body")
     symbolic = isinstance(body, Mapping) and body.get("kind") == "moments"
     own = {"g", *(s.name for s in d.symbols)} if letters is None else {*letters}
-    return unclear(own, named_numbers(d), symbolic)
+    return unclear(own, outline.named_numbers(d), symbolic)
 
 
 def letters_of(d: Derivation, language: Language) -> frozenset[str]:
@@ -139,7 +116,7 @@ def unquoted(words: str, quoted: frozenset[str]) -> str:
 
 def _step(step: Step, width: int, quoted: frozenset[str], language: Language) -> Iterator[str]:
     """The lines of a step: heading, sentences, what it uses, equations."""
-    head = [step.label, language.word(step.rule), *notes(step, language)]
+    head = [step.label, language.word(step.rule), *outline.notes(step, language)]
     yield from paragraph(unquoted("  ·  ".join(head), quoted), 0, width)
     yield from paragraph(unquoted(language.of(step.prose), quoted), MARGIN, width)
     if step.uses:
@@ -165,8 +142,8 @@ def equation_lines(equations: tuple[Equation, ...], room: int, language: Languag
     if len(equations) > TABLE and cell(equations[0]) and len(runs) == 1:
         yield from _table([cell(e) for e in equations], room)
         return
-    left, along = [show(e.lhs) for e in equations], moving(equations)
-    widest = max(map(display_width, left))
+    left, along = [show(e.lhs) for e in equations], outline.moving(equations)
+    widest = max(map(typeset.display_width, left))
     column = widest if widest <= room * 2 // 5 else 0
     for lhs, e in zip(left, equations, strict=True):
         for line in _equation(lhs, e, column, room, _clause(e, along, language), language):
@@ -175,7 +152,7 @@ def equation_lines(equations: tuple[Equation, ...], room: int, language: Languag
 
 def _table(cells: list[str], room: int) -> Iterator[str]:
     """The lines of short equations in columns, row by row."""
-    widest = max(map(display_width, cells)) + 4
+    widest = max(map(typeset.display_width, cells)) + 4
     columns = max(1, min(4, room // widest))
     for k in range(0, len(cells), columns):
         row = (padded(x, widest) for x in cells[k : k + columns])
@@ -184,7 +161,7 @@ def _table(cells: list[str], room: int) -> Iterator[str]:
 
 def padded(words: str, width: int) -> str:
     """Words with spaces behind them up to a width."""
-    return words + " " * max(width - display_width(words), 0)
+    return words + " " * max(width - typeset.display_width(words), 0)
 
 
 def _equation(
@@ -194,17 +171,17 @@ def _equation(
     right = show(e.rhs)
     if isinstance(e.rhs, tuple) and e.rhs[0] == "par" and right == lhs:
         right += f"  {language.word('(a parameter)')}"
-    lead = " " * (column - display_width(lhs)) + lhs
-    if column == 0 and display_width(f"{lhs} = {right}") > room:
+    lead = " " * (column - typeset.display_width(lhs)) + lhs
+    if column == 0 and typeset.display_width(f"{lhs} = {right}") > room:
         *before, lead = _broken(lhs, room, 0)
         yield from before
-        if display_width(lead) > room // 2:
+        if typeset.display_width(lead) > room // 2:
             yield lead
             lead = " " * INSIDE
-    indent = display_width(lead) + 3
+    indent = typeset.display_width(lead) + 3
     first, *others = [*_broken(right, room - indent, indent)]
     lines = [f"{lead} = {first[indent:]}", *others]
-    if clause and display_width(f"{lines[-1]}  {clause}") <= room:
+    if clause and typeset.display_width(f"{lines[-1]}  {clause}") <= room:
         lines[-1] += f"  {clause}"
         clause = ""
     yield from lines
@@ -216,8 +193,8 @@ def _clause(e: Equation, along: Collection[Equation], language: Language) -> str
     """For which names an equation holds: every one, or some; or along the motion, as those
     ``along`` it do; empty where nothing is said."""
     clauses = []
-    if names := quantified(e, along):
-        shown, space = ", ".join(map(show_name, names)), domain(names)
+    if names := outline.quantified(e, along):
+        shown, space = ", ".join(map(show_name, names)), outline.domain(names)
         shown = f"({shown})" if len(names) > 1 and space else shown
         within = f" ∈ {space}" if space else ""
         clauses.append(f"{language.word('for every')} {shown}{within}")
@@ -230,12 +207,12 @@ def _clause(e: Equation, along: Collection[Equation], language: Language) -> str
 
 def _broken(formula: str, room: int, indent: int) -> list[str]:
     """The lines of a formula, which start at column ``indent`` or deeper."""
-    lines = fill(pieces(formula), room, display_width, INSIDE)
+    lines = typeset.fill(pieces(formula), room, typeset.display_width, INSIDE)
     shown = [" " * (indent + INSIDE * line.inside) + line.text for line in lines]
     return [part for line in shown for part in _cut(line, room + indent)]
 
 
-def pieces(formula: str) -> list[Piece]:
+def pieces(formula: str) -> list[typeset.Piece]:
     """The pieces of a formula, cut before its operators and after its commas, with their depth."""
     found, start, depth, strength = [], 0, 0, 0.0
     stroke = ""
@@ -247,22 +224,22 @@ def pieces(formula: str) -> list[Piece]:
         elif c in "‖|" and stroke in ("", c):
             stroke = "" if stroke else c
         elif c in " ·" and k > start:
-            after = {",": COMMA, ";": ROW}.get(formula[k - 1])
-            here = BREAKS.get(formula[k : k + 3], FACTOR) if after is None else after
+            after = {",": typeset.COMMA, ";": typeset.ROW}.get(formula[k - 1])
+            here = BREAKS.get(formula[k : k + 3], typeset.FACTOR) if after is None else after
             if formula[max(k - 2, 0) : k + 1] in BREAKS:
                 continue
-            found.append(Piece(formula[start:k], strength))
+            found.append(typeset.Piece(formula[start:k], strength))
             start, strength = k, depth + bool(stroke) + here
-    return [*found, Piece(formula[start:], strength)]
+    return [*found, typeset.Piece(formula[start:], strength)]
 
 
 def _cut(line: str, width: int) -> list[str]:
     """A line cut by force into ones of ``width`` where nothing else made it short enough."""
-    if display_width(line) <= width:
+    if typeset.display_width(line) <= width:
         return [line]
     columns = 0
     for k, c in enumerate(line):
-        columns += 0 if MARK.match(c) else 1
+        columns += 0 if typeset.MARK.match(c) else 1
         if columns > width:
             return [line[:k], *_cut(line[k:], width)]
     return [line]
@@ -272,7 +249,7 @@ def paragraph(words: str, margin: int, width: int) -> Iterator[str]:
     """Words filled into lines; runs of spaces inside a line stay."""
     line = ""
     for word in words.strip().split(" "):
-        if line.strip() and display_width(f"{line} {word}") > width - margin:
+        if line.strip() and typeset.display_width(f"{line} {word}") > width - margin:
             yield " " * margin + line.strip()
             line = word
         else:
@@ -285,7 +262,7 @@ def paragraph(words: str, margin: int, width: int) -> Iterator[str]:
 def _underlined(heading: str, mark: str, width: int) -> list[str]:
     """A heading with a line of ``mark`` below it."""
     lines = [*paragraph(heading, 0, width)]
-    return [*lines, mark * max(map(display_width, lines))]
+    return [*lines, mark * max(map(typeset.display_width, lines))]
 
 
 # The walk as Markdown with formulas between dollars.
@@ -293,15 +270,16 @@ def _underlined(heading: str, mark: str, width: int) -> list[str]:
 
 def markdown(d: Derivation, *, language: Language = ENGLISH) -> str:
     """The walk: headings, prose and display formulas; no raw HTML."""
-    names = latex_names(d)
+    names = outline.latex_names(d)
     meant = " ".join(
-        prose(language.marked.word(x), markdown_text) for x in (TRANSPOSES["bar"], conventions([d]))
+        prose(language.marked.word(x), markdown_text)
+        for x in (outline.TRANSPOSES["bar"], outline.conventions([d]))
     )
     parts = [
-        f"# {markdown_text(headline(d, language))}",
-        f"{meant} {markdown_text(language.word(PAPER))}",
+        f"# {markdown_text(outline.headline(d, language))}",
+        f"{meant} {markdown_text(language.word(outline.PAPER))}",
     ]
-    for section, steps in sections(d, language):
+    for section, steps in outline.sections(d, language):
         parts.append(f"## {markdown_text(section)}")
         for step in steps:
             parts.extend(_step_in_markdown(step, names, language))
@@ -315,8 +293,8 @@ def step_markdown(step: Step, symbols: Iterable[Symbol], *, language: Language =
 
 def _step_in_markdown(step: Step, names: Mapping[str, str], language: Language) -> Iterator[str]:
     told = partial(prose, escape=markdown_text, formula=partial(dollars, names=names))
-    beside = "".join(f", {told(note)}" for note in notes(step, language.marked))
-    rule = markdown_text(capitalised(language.word(step.rule)))
+    beside = "".join(f", {told(note)}" for note in outline.notes(step, language.marked))
+    rule = markdown_text(outline.capitalised(language.word(step.rule)))
     yield f"### {rule}{beside} — {code(step.label)}"
     used = ", ".join(map(code, step.uses))
     from_these = f" ({language.word('from')} {used})" if used else ""

@@ -21,7 +21,7 @@ from derive.pipeline import walk
 from derive.problem.problem import ProblemError
 from derive.problem.toml import problem_of
 from derive.record.as_json import to_json
-from derive.validate.compare import Comparison, compare
+from derive.validate.compare import FileAtPoint, compare
 from derive.validate.exact_points import Claims
 from derive.validate.read_file import read
 from derive.validate.terms import CodeError, Literals
@@ -67,7 +67,7 @@ def with_quaternion():
 
     def holds(text):
         try:
-            found = Comparison(module(text), claims, Literals(()), point).compare_all()
+            found = FileAtPoint(module(text), claims, Literals(()), point).compare_all()
         except CodeError:
             return False
         return {*OWN} <= {*found}

@@ -20,7 +20,7 @@ from derive.validate.syntax import SYNTAX, tokens
 from derive.validate.terms import CodeError
 from derive.validate.torus.loop_reader import LoopReader
 from derive.validate.torus.loops_of_languages import JuliaLoopReader
-from derive.validate.torus.run_loops import Cells, Loops
+from derive.validate.torus.run_loops import Cells, LoopInterpreter
 from derive.validate.torus.torus_files import (
     TorusClaims,
     agreement_of_module,
@@ -453,7 +453,7 @@ def energy_of(language, text):
     reader = kind(language, tokens(SYNTAX[language], text, "loops"))
     reader.module()
     p = 2**61 - 1
-    loops = Loops(reader, p, lambda x: int(10 * float(x)) * pow(10, -1, p) % p, None)
+    loops = LoopInterpreter(reader, p, lambda x: int(10 * float(x)) * pow(10, -1, p) % p, None)
     x = Cells([2])
     x.update({0: Measured(3), 1: Measured(5)})
     return loops.numbers([loops.call("energy", Measured(0), x, Cells([0]))])[0]

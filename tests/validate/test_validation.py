@@ -14,7 +14,7 @@ from derive.code.languages import LANGUAGES
 from derive.command import emitting
 from derive.command.cli import main
 from derive.validate.chart import Chart
-from derive.validate.compare import Agreement, Comparison
+from derive.validate.compare import Agreement, FileAtPoint
 from derive.validate.emission import as_text
 from derive.validate.exact_points import Claims
 from derive.validate.read_file import read as read_file
@@ -65,7 +65,7 @@ def compared(name, language, text, **chosen):
     """Holds one text of a file against the record at one exact point."""
     literals = Literals(emitted(name).program.numbers())
     module = read(name, language, text, **chosen)
-    return Comparison(module, claims(name), literals, point(name)).compare_all()
+    return FileAtPoint(module, claims(name), literals, point(name)).compare_all()
 
 
 def meaning(name, language, text):

@@ -19,6 +19,8 @@ from derive.problem.fields import state_names
 from derive.problem.toml import problem_of
 from derive.record.sentence import PLACE, Sentence
 from derive.searches import equilibria
+from derive.views.answer import answer_mathml
+from derive.views.arrows import arrows, marks
 from derive.views.language import catalogue_entries, language
 from derive.views.layout import Reading, as_read, factored
 from derive.views.printing.letters import names_of, parameter
@@ -253,11 +255,19 @@ def test_every_view_has_them_so(double, form):
     assert ("its blocks are" in shown) is (form != "markdown")  # which lists no names
 
 
+def test_the_answer_of_a_page_has_them_so(double):
+    _, record = double
+    shown = "".join(x for _, x in answer_mathml(record, marks(arrows(record))))
+    assert "<mi>A</mi>" in shown
+    assert not re.search(r"<mn>3[34]</mn>", shown)
+
+
 def test_the_json_and_other_groups_stay(double):
     _, record = double
     assert '["entry", "A", 3, 3]' in re.sub(r"\s+", " ", render(record, "json"))
     assert Reading({"group": "SO(3)"}).tree(("entry", "A", 3, 3)) == ("entry", "A", 3, 3)
     assert Reading({"group": "SO(3)"}).text("A₃₃ = 1") == "A₃₃ = 1"
+    assert Reading({"group": "SAff(2)"}).tree(("entry", "A", 1, 3)) == ("entry", "T", 1)
     assert Reading({"group": "SO(2) x SO(2)"}).text("A₃₃ = −A₄₄, J₃₃") == "(A₂)₁₁ = −(A₂)₂₂, J₃₃"
 
 

@@ -32,19 +32,10 @@ from ..trials.trial_points import AnyModel, model_at
 from ..values.arithmetic import EvaluationError, Varying, slopes_of
 from ..values.arithmetic import value_of as value
 from ..values.draws import Locus
+from . import trim_claims
 from .entries_checked import decided
 from .equilibrium_claims import Coordinates, coordinates, silent
 from .reduced_system import ClaimedRecord, Judge
-from .trim_claims import (
-    carried_along,
-    defaults,
-    linearised,
-    placed,
-    seen_from,
-    standing,
-    the_one,
-    velocity_of,
-)
 
 SIZE, BOUNDED_SIZE, TRIED, LARGEST = 2**16, 4, 3, 16
 """Numbers are drawn up to a size, smaller ones where their differences are within bounds; so many
@@ -79,14 +70,14 @@ class EnclosedState:
         inputs = (x for x, _ in near if x not in known)
         if not all(isinstance(x, tuple) and x[0] == "par" for x in inputs):
             raise RecordError("velocities, displacements and inputs are told to be near")
-        if any(placed(c.group, exact)[3]):
+        if any(trim_claims.placed(c.group, exact)[3]):
             raise RecordError("a displacement of g is told as an exact number")
         if not all(isinstance(y, Fraction) for _, y in near):
             raise RecordError("what is told to be near is a fraction")
         self.c, self.group, self.exact, self.along = c, c.group, exact, along
         self.names, self.radius = [x for x, _ in near], radius
         self.near = [y for _, y in near if isinstance(y, Fraction)]
-        numbers = defaults(c)
+        numbers = trim_claims.defaults(c)
 
         def model(size: int, *, bounded: bool) -> AnyModel:
             chosen = {"given": numbers, "bounded": bounded}
@@ -104,13 +95,13 @@ class EnclosedState:
         """The model where the numbers that are near have these values."""
         basis = self.group.in_user_basis
         pairs = (*self.exact, *zip(self.names, y, strict=True))
-        held, g, zeta, xi = placed(self.group, pairs)
+        held, g, zeta, xi = trim_claims.placed(self.group, pairs)
         if any(x[1] == "ξ" for x in self.names if isinstance(x, tuple)):
             g = model.ordered(g, cayley(basis.hat(xi)))
         Z = basis.hat(zeta)
         if self.along:
-            Z = q.plus(Z, seen_from(g, self.group, self.along, model.side))
-        return standing(model, g, Z, model.t if t is None else t, held)
+            Z = q.plus(Z, trim_claims.seen_from(g, self.group, self.along, model.side))
+        return trim_claims.standing(model, g, Z, model.t if t is None else t, held)
 
     # -- one solution is there ---------------------------------------------------------------------
 
@@ -167,7 +158,7 @@ class EnclosedState:
     def _stays(self) -> bool:
         here = self.at(self.free, self.any_numbers())
         there, rate = copy(here), Varying(Fraction(0), [Fraction(1)])
-        there.g = carried_along(here, rate, self.group.sample(self.c.random, SIZE))
+        there.g = trim_claims.carried_along(here, rate, self.group.sample(self.c.random, SIZE))
         there.t = here.t + rate
         return not any(any(slopes_of(x, 1)) for x in there.load)
 
@@ -187,7 +178,7 @@ class EnclosedState:
         rates = q.solve(_all_bounded(here.metric), _all_bounded(slopes))
         if rates is None:
             raise RecordError("the mass matrix is singular")
-        return characteristic(linearised(here, rates))
+        return characteristic(trim_claims.linearised(here, rates))
 
     # -- the element -------------------------------------------------------------------------------
 
@@ -246,7 +237,7 @@ def _of_claim(c: ClaimedRecord, claim: Claim) -> EnclosedState:
 
 def _of_step(c: ClaimedRecord, step: Step) -> EnclosedState:
     """The state that a step tells; ``RecordError`` where it tells none, or several."""
-    return _of_claim(c, the_one(step, POINTS))
+    return _of_claim(c, trim_claims.the_one(step, POINTS))
 
 
 def _at(c: ClaimedRecord, step: Step, claim: Claim) -> str:
@@ -296,7 +287,7 @@ def _turned(c: ClaimedRecord, step: Step, claim: Claim) -> str:
 
 def _velocity(c: ClaimedRecord, step: Step, claim: Claim) -> str:
     """The velocity has these coordinates, and others are 0."""
-    here, told = _of_step(c, step), velocity_of(c.group, coordinates(claim, "entries"))
+    here, told = _of_step(c, step), trim_claims.velocity_of(c.group, coordinates(claim, "entries"))
     Z = here.at(here.bounded, here.box or here.near).Z
     pairs = zip(c.group.in_user_basis.nearest(Z), told, strict=True)
     same = all((Interval.of(x) - y).size <= _radius(claim) for x, y in pairs)

@@ -272,11 +272,8 @@ def _of_entries_alone(levels: Sequence[Terms]) -> list[Terms]:
     rows = [[f.get(m, Fraction(0)) for f in levels] for m in monomials]
     found: list[Terms] = []
     for weights in q.nullspace(q.matrix([*rows, [Fraction(0)] * len(levels)])):
-        total: dict[tuple[tuple[Tree, int], ...], Fraction] = {}
-        for w, f in zip(weights, levels, strict=True):
-            for m, c in f.items():
-                total[m] = total.get(m, Fraction(0)) + w * c
-        found.append({m: c for m, c in total.items() if c})
+        pairs = zip(weights, levels, strict=True)
+        found.append(q.summed((m, w * c) for w, f in pairs for m, c in f.items()))
     return found
 
 

@@ -337,7 +337,7 @@ class UnluckyError(ArithmeticError):
     """No true roots of numbers and parameters, or too few points with roots."""
 
 
-class Functions(ElementaryValues):
+class ResidueFunctions(ElementaryValues):
     """The functions at the points of a source; roots are true at those that are ``valid``, or any
     numbers without ``roots``."""
 

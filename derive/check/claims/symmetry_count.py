@@ -30,7 +30,7 @@ from ..values.arithmetic import Varying, value_of
 from ..values.residue import Residue
 from .entries_checked import constant_entries
 from .spectra_and_residues import (
-    Functions,
+    ResidueFunctions,
     UnluckyError,
     begins,
     drawn,
@@ -94,7 +94,7 @@ class SymmetryCount:
         parameters = drawn(letters, self.random, p)
         points = self.points(len(listed) + SPARE, parameters, p)
         source = ResidueVectorSource(p, points.count, self.seed())
-        functions = Functions(source, roots=self.true_roots)
+        functions = ResidueFunctions(source, roots=self.true_roots)
         found = points.rank([points.conserved_by(x, parameters, functions) for x in listed])
         if not all(functions.valid):
             raise UnluckyError
@@ -161,7 +161,7 @@ class SymmetryCount:
         at |= {x: Residue(y.values[0], p) for x, y in _entries(g).items()}
         units = q.identity(len(leaves))
         at |= {x: Varying(y, unit) for (x, y), unit in zip(leaves.items(), units, strict=True)}
-        functions = Functions(source, roots=self.true_roots)
+        functions = ResidueFunctions(source, roots=self.true_roots)
         L = value(self.tree, at, p, functions)
         valid = [k for k, holds in enumerate(functions.valid) if holds][:several]
         if len(valid) < several:
@@ -266,7 +266,7 @@ class JetPoints:
         return self.paired(self.Z) - self.value
 
     def conserved_by(
-        self, listed: Listed, parameters: Mapping[Tree, Residue], functions: Functions
+        self, listed: Listed, parameters: Mapping[Tree, Residue], functions: ResidueFunctions
     ) -> Any:
         """⟨Π, η⟩ − τh̃ − F for a field given by trees."""
         scalar = self.scalar(parameters, functions)
@@ -275,7 +275,7 @@ class JetPoints:
         return self.paired(eta) - (scalar(listed.time) * self.energy + scalar(listed.F))
 
     def scalar(
-        self, parameters: Mapping[Tree, Residue], functions: Functions
+        self, parameters: Mapping[Tree, Residue], functions: ResidueFunctions
     ) -> Callable[[Tree], Any]:
         """The values of trees of the time, the entries of g and parameters."""
         at = {"t": self.leaves[0], **parameters, **_entries(self.g)}

@@ -11,7 +11,7 @@ from ...language.rational import Matrix
 from ...language.tree import Tree, nodes
 from ...record.record import Derivation, RecordError, Step
 from ...record.sentence import Claim
-from .spectra_and_residues import Functions, UnluckyError, drawn, is_parameter
+from .spectra_and_residues import ResidueFunctions, UnluckyError, drawn, is_parameter
 from .symmetry_count import SPARE, Judge, SymmetryCount, displaced, each
 
 MOVEMENTS = tuple(
@@ -34,7 +34,7 @@ class SymmetryField:
         own = [x for t in (time, displacement) for x in nodes(t) if is_parameter(x)]
         parameters = drawn(dict.fromkeys([*found.parameters, *own]), found.random, p)
         self.points = points = found.points(SPARE, parameters, p)
-        functions = Functions(
+        functions = ResidueFunctions(
             ResidueVectorSource(p, points.count, found.seed()), roots=found.true_roots
         )
         scalar = points.scalar(parameters, functions)

@@ -279,7 +279,7 @@ Value = Any
 
 
 @dataclass(frozen=True)
-class Matrix:
+class MatrixField:
     """A matrix at each place."""
 
     rows: tuple[tuple[Function, ...], ...]
@@ -327,9 +327,9 @@ def times(a: Value, b: Value) -> Value:
             return b * a
         if isinstance(b, OnBoundary):
             return OnBoundary(b.f * a)
-        if isinstance(b, Matrix):
-            return Matrix(tuple(tuple(x * a for x in row) for row in b.rows))
-    if isinstance(a, Matrix) and isinstance(b, Matrix):
+        if isinstance(b, MatrixField):
+            return MatrixField(tuple(tuple(x * a for x in row) for row in b.rows))
+    if isinstance(a, MatrixField) and isinstance(b, MatrixField):
         return matrix_product(a, b)
     if isinstance(b, Function) and b.is_constant and not isinstance(a, Function):
         return times(b, a)
@@ -347,28 +347,28 @@ def plus(a: Value, b: Value) -> Value:
         return tuple(x + y for x, y in zip(a, b, strict=True))
     if isinstance(a, OnBoundary):
         return OnBoundary(a.f + b.f)
-    if isinstance(a, Matrix):
+    if isinstance(a, MatrixField):
         rows = zip(a.rows, b.rows, strict=True)
-        return Matrix(tuple(tuple(map(add, x, y)) for x, y in rows))
+        return MatrixField(tuple(tuple(map(add, x, y)) for x, y in rows))
     return a + b
 
 
 def power(x: Value, n: Any) -> Value:
     """xⁿ, which is the square of a matrix."""
-    if not isinstance(x, Matrix) or n != 2:
+    if not isinstance(x, MatrixField) or n != 2:
         raise EvaluationError("a power is the square of a matrix")
     return matrix_product(x, x)
 
 
-def matrix_product(a: Matrix, b: Matrix) -> Matrix:
+def matrix_product(a: MatrixField, b: MatrixField) -> MatrixField:
     """At each place."""
     columns = [*zip(*b.rows, strict=True)]
-    return Matrix(tuple(tuple(dot(row, c) for c in columns) for row in a.rows))
+    return MatrixField(tuple(tuple(dot(row, c) for c in columns) for row in a.rows))
 
 
 def trace(x: Value) -> Function:
     """Of a matrix, at each place."""
-    if not isinstance(x, Matrix):
+    if not isinstance(x, MatrixField):
         raise EvaluationError("the trace is of a matrix")
     found = [row[j] for j, row in enumerate(x.rows)]
     return sum(found[1:], found[0])

@@ -11,7 +11,7 @@ from ..values.arithmetic import EPS, EPS_PRIME, EvaluationError, nilpotent, part
 from .exact_functions import (
     Field,
     Function,
-    Matrix,
+    MatrixField,
     Normal,
     OnBoundary,
     Operator,
@@ -181,10 +181,10 @@ class FluidValues:
         found: Function = laplacian(self.functional(t))
         return found
 
-    def jacobian(self, t: Tree) -> Matrix:
+    def jacobian(self, t: Tree) -> MatrixField:
         """∇ of a field, the matrix of its derivatives."""
         field, span = self.field(t), range(self.model.space.dimension)
-        return Matrix(tuple(tuple(f.d(j) for j in span) for f in field))
+        return MatrixField(tuple(tuple(f.d(j) for j in span) for f in field))
 
     def along_normal(self, t: Tree) -> OnBoundary:
         """∂ₙ of a function."""

@@ -9,7 +9,7 @@ from fractions import Fraction
 from random import Random
 from typing import Any
 
-from ...algebra.samplers import Source
+from ...algebra.samplers import RandomSource
 from ...language.tree import Tree, names
 from ...record.record import Derivation, Equation, Hypothesis, RecordError, Step
 from ...record.vocabulary import OFF_MOTION, Type, Use
@@ -169,7 +169,7 @@ class FluidChecker:
 
     # -- points --------------------------------------------------------------------------------
 
-    def source(self, name: str, at: FluidLocus, size: int) -> Source:
+    def source(self, name: str, at: FluidLocus, size: int) -> RandomSource:
         """Residues modulo a random prime; plain integers for a ``size`` that is small, degrees
         for 0."""
         if not size:

@@ -15,7 +15,7 @@ from .exact_functions import (
     Edges,
     Exponents,
     Function,
-    Matrix,
+    MatrixField,
     OnBoundary,
     Operator,
     Told,
@@ -85,7 +85,7 @@ def entries(x: Any, y: Any) -> Iterator[tuple[Any, Any]]:
 
 def functions(x: Value) -> tuple[Function, ...]:
     """The functions that a value is made of."""
-    if isinstance(x, Matrix):
+    if isinstance(x, MatrixField):
         return tuple(f for row in x.rows for f in row)
     if isinstance(x, OnBoundary):
         return (x.f,)
@@ -98,7 +98,7 @@ def kind_of(x: Value) -> str:
         return "scalar" if x.is_constant else "scalar field"
     if isinstance(x, OnBoundary):
         return "scalar field"
-    if isinstance(x, Matrix):
+    if isinstance(x, MatrixField):
         return "tensor field"
     return "operator" if isinstance(x, Operator) else "vector field"
 

@@ -14,7 +14,7 @@ from random import Random
 from typing import Any
 
 from ...algebra.groups import Group
-from ...algebra.samplers import Source
+from ...algebra.samplers import RandomSource
 from ...algebra.structure import Place, TorusLattice
 from ...language import rational as q
 from ...language.rational import Matrix
@@ -51,7 +51,7 @@ class TorusModel:
     def __init__(
         self,
         torus: TorusLattice,
-        source: Source,
+        source: RandomSource,
         size: int,
         *,
         free: bool = False,
@@ -295,7 +295,7 @@ def torus_of(problem: Mapping[str, Any]) -> TorusLattice:
 def group_of_torus(torus: TorusLattice) -> Group:
     """SU(N) by its name and size, without a table of a basis, or elements."""
 
-    def none(random: Source, size: int) -> Matrix:
+    def none(random: RandomSource, size: int) -> Matrix:
         raise EvaluationError(f"no elements of {torus.name} are drawn")
 
     return Group(torus.name, torus.N, "linear", (), none)

@@ -13,7 +13,7 @@ from functools import cached_property
 from typing import Any
 
 from ...algebra.groups import Group
-from ...algebra.samplers import Source, simple_elements
+from ...algebra.samplers import RandomSource, simple_elements
 from ...language import rational as q
 from ...language.rational import Matrix
 from ...language.tree import Tree
@@ -33,7 +33,7 @@ class KinematicsModel(Draws):
     """A and Â, the inputs and their noise, at random; or the elements that the locus has."""
 
     def __init__(
-        self, problem: Mapping[str, Any], group: Group, source: Source, size: int, at: Locus
+        self, problem: Mapping[str, Any], group: Group, source: RandomSource, size: int, at: Locus
     ):
         super().__init__(problem, group, source, size)
         self.at, given = at, problem["kinematics"]

@@ -11,7 +11,7 @@ from functools import cached_property
 from typing import Any
 
 from ...algebra.groups import Group
-from ...algebra.samplers import Source
+from ...algebra.samplers import RandomSource
 from ...algebra.user_groups import block
 from ...language import rational as q
 from ...language.rational import Matrix
@@ -143,7 +143,7 @@ class LagrangianModel(GivenForces):
         self,
         problem: Mapping[str, Any],
         group: Group,
-        random: Source,
+        random: RandomSource,
         size: int,
         at: Locus,
         *,

@@ -19,7 +19,7 @@ from ...language.tree import Tree, nodes
 from ...record.record import Step
 from ..trials.meaning import NameValues, Values
 from ..trials.momenta_and_outputs import Observed
-from ..trials.phase_point import Family, Form, PhasePoint, TangentVector
+from ..trials.phase_point import Form, Nearby, PhasePoint, TangentVector
 from ..values.arithmetic import EPS, EPS_PRIME, ETA, EvaluationError, nilpotent, part
 from ..values.draws import part_of_velocity
 from ..values.evaluate import Environment, evaluate
@@ -93,7 +93,16 @@ def _motion(model: LagrangianModel) -> Values:
     """What follows from the acceleration of the motion; M and β."""
     values = {"Ż": model.acceleration, "ζ̇": q.column(model.group.nearest(model.acceleration))}
     values["Π̇"] = _covector(model, _rates(model))
-    values |= _other_momentum(model)
+    # ⟨Π_o, E⟩ is the momentum along Eg on the left, gE on the right
+    t, g, Z, *_ = model.onward
+    back = model.undone(model.onward)
+    aside = (model.ordered(back, model.ordered(x, g)) for x in model.group.basis)
+    found = [model.momentum(t, g, Z, xi) for xi in aside]
+    values |= {
+        "Π_o": _covector(model, [part(x, 0) for x in found]),
+        "Π̇_o": _covector(model, [part(x, EPS) for x in found]),
+        "ḣ": model.indices(part(model.energy(t, g, Z), EPS), WITH_BRACKET),
+    }
     values |= {"M": model.metric, "β": q.column(model.load)}
     return values if model.generic else values | {"𝕁": model.brackets()}
 
@@ -102,30 +111,6 @@ def _rates(model: LagrangianModel) -> list[Any]:
     """d/dt of ∂ℓ/∂Z along the motion, on the basis."""
     t, g, Z, *_ = model.onward
     return [part(x, EPS) for x in model.momenta(t, g, Z)]
-
-
-def _other_momentum(model: LagrangianModel) -> Values:
-    """Π_o with its rate, and ḣ: ⟨Π_o, E⟩ is the momentum along Eg on the left, gE on the right."""
-    t, g, Z, *_ = model.onward
-    back = model.undone(model.onward)
-    aside = (model.ordered(back, model.ordered(x, g)) for x in model.group.basis)
-    found = [model.momentum(t, g, Z, xi) for xi in aside]
-    return {
-        "Π_o": _covector(model, [part(x, 0) for x in found]),
-        "Π̇_o": _covector(model, [part(x, EPS) for x in found]),
-        "ḣ": model.indices(part(model.energy(t, g, Z), EPS), WITH_BRACKET),
-    }
-
-
-def _rate(model: LagrangianModel, what: Tree, env: Environment) -> Any:
-    """d/dt of a function of Π_a and of g along the motion."""
-    t, g, Z, *_ = model.onward
-    moving = enumerate(model.momenta(t, g, Z), 1)
-    momenta: dict[tuple[int, ...], Any] = {(a,): p for a, p in moving}
-    place = {"Γ": model.advected.at(g)} if model.advected else {"A": g}
-    names: Mapping[str, Any] = ChainMap(place, env.names)  # type: ignore[arg-type]
-    ahead = replace(env, names=names, families={**env.families, "Π": momenta})
-    return part(evaluate(what, ahead), EPS)
 
 
 def _forces(model: LagrangianModel) -> list[Any]:
@@ -174,7 +159,13 @@ def _functions(model: LagrangianModel) -> dict[str, Callable[..., Any]]:
 
     def rate_of(what: Tree, env: Environment) -> Any:
         if ("call", "ϖ", "δy") not in [*nodes(what)]:
-            return _rate(model, what, env)
+            t, g, Z, *_ = model.onward
+            moving = enumerate(model.momenta(t, g, Z), 1)
+            momenta: dict[tuple[int, ...], Any] = {(a,): p for a, p in moving}
+            place = {"Γ": model.advected.at(g)} if model.advected else {"A": g}
+            names: Mapping[str, Any] = ChainMap(place, env.names)  # type: ignore[arg-type]
+            ahead = replace(env, names=names, families={**env.families, "Π": momenta})
+            return part(evaluate(what, ahead), EPS)
         if model.given[0] is None:
             raise EvaluationError("d/dt of ϖ(δy) is told where δ is a field")
         others = what[2:] if isinstance(what, tuple) and what[0] == "add" else ()
@@ -280,7 +271,7 @@ def here(model: LagrangianModel) -> ReducedPoint:
     return ReducedPoint(model, model.t, model.g, q.inverted(model.g), model.Z)
 
 
-def on_family(model: LagrangianModel, family: Family) -> ReducedPoint:
+def on_family(model: LagrangianModel, family: Nearby) -> ReducedPoint:
     """The points of a family."""
     return ReducedPoint(model, family.t, family.g, model.undone(family), family.Z)
 
@@ -314,7 +305,7 @@ def functions(model: LagrangianModel) -> dict[str, Callable[..., Any]]:
         return part(member(here(model).connection(xi), head, env), 0)
 
     def curvature(head: Any, arguments: Any, env: Environment) -> Any:
-        def on(family: Family) -> Form:
+        def on(family: Nearby) -> Form:
             at = on_family(model, family)
             return lambda _, xi: member(at.connection(xi), head, env)
 

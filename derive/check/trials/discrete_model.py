@@ -302,18 +302,12 @@ def _momenta(model: DiscreteModel) -> Values:
     if model.group.turns_space:
         for k, (real, x) in enumerate(model.quaternions):
             values |= {f"q_{k}": real, f"x_{k}": x}
-        values["μ_1"] = _torque(model)
+        found = []
+        for e in model.group.basis[:3]:
+            along = q.times(model.g, model.about_centre(model.group.linear_part(e)))
+            found.append(model.work_of(model.forces_at(1), along) + model.work_of_inputs(along))
+        values["μ_1"] = q.column(found)
     return values | _multiplier(model)
-
-
-def _torque(model: DiscreteModel) -> Matrix:
-    """The work of all forces on the turns of the body about its axes, by its centre of mass or the
-    fixed point."""
-    found = []
-    for e in model.group.basis[:3]:
-        along = q.times(model.g, model.about_centre(model.group.linear_part(e)))
-        found.append(model.work_of(model.forces_at(1), along) + model.work_of_inputs(along))
-    return q.column(found)
 
 
 def _in_space(model: DiscreteModel, k: int, g: Matrix, across: Matrix) -> Values:

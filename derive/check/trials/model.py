@@ -10,7 +10,7 @@ from itertools import chain, repeat
 from typing import Any
 
 from ...algebra.groups import Group
-from ...algebra.samplers import Source
+from ...algebra.samplers import RandomSource
 from ...language import rational as q
 from ...language.rational import Matrix
 from ...language.reserved import UNNAMED_FORCE
@@ -100,7 +100,7 @@ class Model(Body, GivenForces):
         self,
         problem: Mapping[str, Any],
         group: Group,
-        random: Source,
+        random: RandomSource,
         size: int,
         at: Locus,
         **drawn: Any,

@@ -44,7 +44,7 @@ class TangentVector:
     velocity: Matrix
 
 
-class Family(NamedTuple):
+class Nearby(NamedTuple):
     """t, g, Z on a family through the point, and h, h⁻¹ for g = g₀h; on the right g = hg₀."""
 
     t: Any
@@ -191,7 +191,7 @@ class PhasePoint(Draws):
             h, back = self.ordered(h, step), self.ordered(undo, back)
         return h, back
 
-    def family(self, a: TangentVector, b: TangentVector) -> Family:
+    def family(self, a: TangentVector, b: TangentVector) -> Nearby:
         """A two-parameter family with the derivatives a and b, to first order in each.
 
         The mixed part is arbitrary: dϖ does not depend on it, but δξ′ and δ′ξ do.
@@ -202,26 +202,26 @@ class PhasePoint(Draws):
         for weight, x in moves:
             t, Z = t + weight * x.time, q.plus(Z, q.scaled(weight, x.velocity))
         h, back = self.displaced(*((weight, x.xi) for weight, x in moves))
-        return Family(t, self.ordered(self.g, h), Z, h, back)
+        return Nearby(t, self.ordered(self.g, h), Z, h, back)
 
     @cached_property
-    def varied(self) -> Family:
+    def varied(self) -> Nearby:
         """The family of δ and δ′."""
         return self.family(self.first, self.second)
 
     @cached_property
-    def onward(self) -> Family:
+    def onward(self) -> Nearby:
         """The motion for a time ε."""
         e = nilpotent(EPS)
         h, back = self.displaced((e, self.Z))
         faster = q.plus(self.Z, q.scaled(e, self.acceleration))
-        return Family(self.t + e, self.ordered(self.g, h), faster, h, back)
+        return Nearby(self.t + e, self.ordered(self.g, h), faster, h, back)
 
-    def undone(self, family: Family) -> Matrix:
+    def undone(self, family: Nearby) -> Matrix:
         """g⁻¹ on a family."""
         return self.ordered(family.back, q.inverted(self.g))
 
-    def field(self, family: Family, mask: int) -> Matrix:
+    def field(self, family: Nearby, mask: int) -> Matrix:
         """g⁻¹ ∂g, or ∂g g⁻¹, in a parameter of a family, a function of the other."""
         return self.ordered(family.back, derivative_of(family.h, mask))
 
@@ -237,14 +237,14 @@ class PhasePoint(Draws):
         pushed = self.momentum(self.t, self.g, self.Z, a.xi)
         return part(pushed - self.energy(self.t, self.g, self.Z) * a.time, 0)
 
-    def cartan_on(self, family: Family) -> Form:
+    def cartan_on(self, family: Nearby) -> Form:
         """ϖ at the points of a family."""
         t, g, Z, *_ = family
         energy = self.energy(t, g, Z)
         return lambda time, xi: self.momentum(t, g, Z, xi) - energy * time
 
     def exterior(
-        self, a: TangentVector, b: TangentVector, *, on: Callable[[Family], Form] | None = None
+        self, a: TangentVector, b: TangentVector, *, on: Callable[[Nearby], Form] | None = None
     ) -> Any:
         """dϖ(δ, δ′) = δ[ϖ(δ′)] − δ′[ϖ(δ)] on the family; or that of another form ``on`` it."""
         family = self.family(a, b)

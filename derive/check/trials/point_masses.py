@@ -154,7 +154,10 @@ class Body(Draws):
             principal_points(self) if principal else points_of(self)
         )
         if axes and not self.generic:
-            self._axes()
+            # last of all the origin of the body and the ends of its axes, without mass
+            rows = (q.scaled(Fraction(0), q.identity(self.n))[0], *q.identity(self.n))
+            self.masses = [*self.masses, *(Fraction(0) for _ in rows)]
+            self.points, self.blocks = [*self.points, *rows], [*self.blocks, *(1 for _ in rows)]
         if self.problem.get("body", {}).get("kind") != "moments":
             return
         m, c, J = self.moments
@@ -162,12 +165,6 @@ class Body(Draws):
         self.parameters |= {
             f"J_{i + 1}{j + 1}": J[i][j] for i in range(self.n) for j in range(i, self.n)
         }
-
-    def _axes(self) -> None:
-        """Last of all the origin of the body and the ends of its axes, without mass."""
-        rows = (q.scaled(Fraction(0), q.identity(self.n))[0], *q.identity(self.n))
-        self.masses = [*self.masses, *(Fraction(0) for _ in rows)]
-        self.points, self.blocks = [*self.points, *rows], [*self.blocks, *(1 for _ in rows)]
 
     @cached_property
     def moments(self) -> tuple[Fraction, Matrix, Matrix]:

@@ -10,7 +10,7 @@ from typing import Any
 
 from ...algebra.families import LARGEST, group, on_homogeneous, turning_about_a_point
 from ...algebra.groups import Group
-from ...algebra.samplers import Source
+from ...algebra.samplers import RandomSource
 from ...algebra.structure import rank
 from ...algebra.user_groups import blocks_apart, group_of_basis, of_matrices
 from ...language import rational as q
@@ -236,7 +236,7 @@ def action_of(problem: Mapping[str, Any]) -> str:
 
 
 def model_at(
-    problem: Mapping[str, Any], g: Group, source: Source, size: int, at: Locus, **chosen: Any
+    problem: Mapping[str, Any], g: Group, source: RandomSource, size: int, at: Locus, **chosen: Any
 ) -> AnyModel:
     """A random model at a locus; ``chosen``: what is drawn otherwise (:class:`Model`)."""
     for name, value in at.elements:
@@ -340,7 +340,9 @@ class TrialPoints:
             known[key] = self._place(g, DegreeSource(), SIZE, at, generic=generic)
         return known[key]
 
-    def _place(self, g: Group, source: Source, size: int, at: Locus, *, generic: bool) -> Place:
+    def _place(
+        self, g: Group, source: RandomSource, size: int, at: Locus, *, generic: bool
+    ) -> Place:
         """A random model at which the hypotheses of a step hold, and its names."""
         if "torus" in self.problem and not generic:
             fluid: Any = torus_model.TorusModel(

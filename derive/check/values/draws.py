@@ -10,7 +10,7 @@ from functools import cached_property
 from typing import Any
 
 from ...algebra.groups import Group
-from ...algebra.samplers import Source
+from ...algebra.samplers import RandomSource
 from ...language.intervals import pi as bounds_of_pi
 from ...language.rational import Matrix, flatten
 from ...language.reserved import suffixed
@@ -20,6 +20,7 @@ from ...record.as_json import decode
 from ...record.record import Equation, RecordError, Step
 from ...record.vocabulary import OFF_MOTION
 from ..form.function_signatures import LATTICE, RATES
+from . import residue
 from .arithmetic import (
     EPS,
     ETA,
@@ -31,17 +32,6 @@ from .arithmetic import (
     shape,
 )
 from .evaluate import ElementaryValues, Environment, evaluate, free_indices, index_values
-from .residue import (
-    ZERO_GRADE,
-    Degree,
-    DegreeSource,
-    Grade,
-    Graded,
-    ResidueSource,
-    common_degree,
-    degrees,
-    indeterminate,
-)
 
 # What is drawn at random for a model before it has points: parameters, π, functions.
 
@@ -89,7 +79,7 @@ class Draws:
         self,
         problem: Mapping[str, Any],
         group: Group,
-        random: Source,
+        random: RandomSource,
         size: int,
         *,
         generic: bool = False,
@@ -102,18 +92,18 @@ class Draws:
         self.generic, self.spare, self.n = generic, 0 if few else SPARE, group.n
         self.parameters = {x: self.draw(positive=True) for x in problem.get("parameters", {})}
         self.parameters |= given or {}
-        exact = pi is None and not isinstance(random, ResidueSource)
+        exact = pi is None and not isinstance(random, residue.ResidueSource)
         self.elementary = ElementaryValues(lambda: self.draw(positive=True), exact=exact)
         self.elementary.bounded = bounded
-        self.graded = isinstance(random, DegreeSource)
-        self.unit = indeterminate(0, 1) if self.graded else Fraction(1)
+        self.graded = isinstance(random, residue.DegreeSource)
+        self.unit = residue.indeterminate(0, 1) if self.graded else Fraction(1)
         self.pi: Any = bounds_of_pi() if bounded else self.draw(positive=True) if pi is None else pi
 
     def draw(self, *, positive: bool = False, slots: int = 0) -> Any:
         """A random integer of the ring drawn from, ``positive`` from 1 on; ``slots``: counted as an
         entry of a tensor of so many indices."""
         x = Fraction(1) * self.random.randint(1 if positive else -self.size, self.size)
-        return indeterminate(slots) if isinstance(x, Graded) else x
+        return residue.indeterminate(slots) if isinstance(x, residue.Graded) else x
 
     def place(self) -> tuple[Any, ...]:
         """A random point of space, n numbers."""
@@ -367,25 +357,25 @@ def as_text(x: Any) -> str:
     return f"{float(x):.6g}" if abs(x) < Fraction(10) ** 300 else "a large number"
 
 
-def claim_grade(equation: Equation, env: Environment) -> tuple[int, Grade]:
+def claim_grade(equation: Equation, env: Environment) -> tuple[int, residue.Grade]:
     """At a point in graded numbers: the degree of an equation, of numerators and denominators
     together, and the grade of its numerators, open indices closed in pairs."""
-    whole, top = 0, ZERO_GRADE
+    whole, top = 0, residue.ZERO_GRADE
     for a, b in _sides(equation, env):
         pairs = zip(_entries(a), _entries(b), strict=True)
         if shape(a) != shape(b):
             pairs = itertools.product(_entries(a), _entries(b))  # type: ignore[assignment]
         open_ = sum(k > 1 for k in max(shape(a), shape(b)))
         open_ += len(free_indices(("add", equation.lhs, equation.rhs)))
-        for x in map(common_degree, pairs):
+        for x in map(residue.common_degree, pairs):
             g = x.numerator
             whole = max(whole, x.total_degree)
-            top = Grade(*map(max, top, (g.degree, g.slots + open_, g.loops)))
+            top = residue.Grade(*map(max, top, (g.degree, g.slots + open_, g.loops)))
     return whole, top
 
 
 def largest_degree(t: Tree, env: Environment) -> int:
     """The largest degree of a value of a tree at a point in graded numbers."""
     values = (evaluate(t, there) for there in index_bindings(t, env))
-    found: Iterator[Degree] = (d for x in values for d in degrees(_entries(x)))
+    found: Iterator[residue.Degree] = (d for x in values for d in residue.degrees(_entries(x)))
     return max((d.total_degree for d in found), default=0)

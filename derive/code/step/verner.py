@@ -21,6 +21,8 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
 from decimal import Decimal, localcontext
 
+from ...language import rational as q
+
 FREE = {2: "0.03462", 5: "0.561", 8: "0.645", 10: "0.06757", 11: "0.25", 13: "0.8206"}
 FREE |= {14: "0.9012", 15: "1", 16: "1", 17: "1", 19: "0.888", 20: "0.696", 21: "0.487"}
 """The nodes that Verner chose; node 1 is 0."""
@@ -222,17 +224,10 @@ def row_of(
 
 
 def solved(matrix: Sequence[Sequence[Decimal]], right: Sequence[Decimal]) -> list[Decimal]:
-    """The solution of a square system, by elimination with the largest pivot of each column."""
-    rows = [[*row, value] for row, value in zip(matrix, right, strict=True)]
-    n = len(rows)
-    for k in range(n):
-        best = max(range(k, n), key=lambda i: abs(rows[i][k]))
-        rows[k], rows[best] = rows[best], rows[k]
-        for i in range(n):
-            if i != k and rows[i][k]:
-                part = rows[i][k] / rows[k][k]
-                rows[i] = [x - part * y for x, y in zip(rows[i], rows[k], strict=True)]
-    return [rows[k][n] / rows[k][k] for k in range(n)]
+    """The solution of a square system."""
+    found = q.solve(q.matrix(matrix), q.column(right))
+    assert found is not None
+    return [x for (x,) in found]
 
 
 def root(f: Function, near: tuple[str, str]) -> Decimal:

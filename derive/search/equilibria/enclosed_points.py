@@ -12,7 +12,7 @@ from ...language import rational as q
 from ...language.intervals import Interval, characteristic
 from ...language.univariate import Number, Quadratic
 from ..integrals.all_integrals import IntegralsFound
-from ..integrals.lie_poisson import LiePoisson, Polynomial, collected, plain
+from ..integrals.lie_poisson import LiePoisson, Polynomial, plain
 from .energy_casimir import diagonalised, second_derivatives, signs
 from .entries_of_elements import Line, numbers
 from .equilibrium_points import (
@@ -128,10 +128,10 @@ def lagrange_function(
     energy = _rational_terms(about, about.algebra.hamiltonian)
     terms = [((*m, *none), c) for m, c in energy.items()]
     for multiplier, f, value, y in zip(q.identity(len(kept)), kept, level, found, strict=True):
-        own = collected([*_rational_terms(about, f).items(), (one, -value)])
+        own = q.summed([*_rational_terms(about, f).items(), (one, -value)])
         terms += [((*m, *none), y * c) for m, c in own.items()]
         terms += [((*m, *map(int, multiplier)), c) for m, c in own.items()]
-    return collected(terms)
+    return q.summed(terms)
 
 
 def _rational_terms(about: About, f: Polynomial) -> Terms:

@@ -17,9 +17,9 @@ from fractions import Fraction
 from itertools import pairwise
 from typing import Any
 
-from ...language.rational import times, transposed
+from ...language.rational import summed, times, transposed
 from ...language.univariate import Number, Quadratic, number
-from ..integrals.lie_poisson import Polynomial, collected
+from ..integrals.lie_poisson import Polynomial
 from .equilibrium_points import About, Expansion, Matrix
 
 Vector = list[Number]
@@ -173,7 +173,7 @@ def combined(energy: Expansion, kept: Sequence[Expansion], by: Sequence[Number])
     """A polynomial plus multiples of others."""
     pairs = [*zip(by, kept, strict=True)]
     added = ((m, y * c) for y, e in pairs for m, c in e.higher.items())
-    higher = collected([*energy.higher.items(), *added])
+    higher = summed([*energy.higher.items(), *added])
     slope = [x + sum(y * e.slope[i] for y, e in pairs) for i, x in enumerate(energy.slope)]
     value = energy.value + sum(y * e.value for y, e in pairs)
     second = second_derivatives(by, energy, kept)

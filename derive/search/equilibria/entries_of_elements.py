@@ -26,7 +26,6 @@ from ..integrals.lie_poisson import (
     Exponents,
     LiePoisson,
     Polynomial,
-    collected,
     multiplied,
 )
 
@@ -243,12 +242,12 @@ class _EntryReader:
                     reference = f, at_one
                 elif self.relations.conformal and at_one and reference:
                     by = -at_one / reference[1]
-                    yield collected([*f.items(), *((e, by * c) for e, c in reference[0].items())])
+                    yield q.summed([*f.items(), *((e, by * c) for e, c in reference[0].items())])
                 elif not self.relations.conformal or not at_one:
                     yield f
 
     def _product(self, one: Line, two: Line, metric: q.Matrix) -> Polynomial:
-        return collected(
+        return q.summed(
             (e, c * z)
             for x, row in zip(one, metric, strict=True)
             for y, c in zip(two, row, strict=True)
@@ -265,7 +264,7 @@ class _EntryReader:
                 smaller = [[*row[:j], *row[j + 1 :]] for row in rows[1:]]
                 by = self._polynomial({k: c * (-1) ** j for k, c in x.items()})
                 terms += multiplied(by, self._determinant(smaller))
-        return collected(terms)
+        return q.summed(terms)
 
 
 def _in_line_with(j: int) -> tuple[Callable[[q.Matrix, int], Any], ...]:

@@ -20,7 +20,6 @@ from ..integrals.lie_poisson import (
     LiePoisson,
     PoissonPolynomials,
     Polynomial,
-    collected,
     plain,
     scaled,
 )
@@ -85,7 +84,7 @@ class About:
         """A polynomial with coefficients in the field, in powers of y, by their exponents."""
         own = f if self.algebra.letters else {e: Fraction(plain(c)) for e, c in f.items()}
         terms = ((m, c * x) for e, c in own.items() for m, x in self._shifted(e).items())
-        return dict(sorted(collected(terms).items(), key=_order))
+        return dict(sorted(q.summed(terms).items(), key=_order))
 
     def expansion(self, f: Polynomial) -> Expansion:
         """The same by their orders."""

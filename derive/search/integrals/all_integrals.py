@@ -12,7 +12,7 @@ from typing import Any, TypeVar
 from ...language.limits import tell
 from .degree_search import PolynomialSearch, PrimePoint, UnluckyPrimeError, blocks, point, unknowns
 from .lie_poisson import Level, LiePoisson, PoissonPolynomials, Polynomial, rank_modulo, slope
-from .parameter_cases import Case, Cases, Grading, grading
+from .parameter_cases import Cases, Grading, Stratum, grading
 
 ATTEMPTS = 6
 LONG = 500
@@ -36,7 +36,7 @@ class Condition:
     """A case of the parameters with its system, the ``integrals`` of a ``degree`` that it has
     beside the generic ones, and what is ``proved`` in it with these, the last."""
 
-    case: Case
+    case: Stratum
     degree: Fraction
     system: LiePoisson
     integrals: tuple[Any, ...]
@@ -50,7 +50,7 @@ class ParameterConditions:
 
     cases: Cases
     conditions: tuple[Condition, ...]
-    unsolved: tuple[tuple[Case, Any], ...]
+    unsolved: tuple[tuple[Stratum, Any], ...]
 
 
 @dataclass(frozen=True)

@@ -14,13 +14,13 @@ from typing import Any
 
 from ...algebra.exact_kernel import pivots
 from ...language.limits import Refused
+from ...language.rational import summed
 from .lie_poisson import (
     PRIMES,
     Exponents,
     Level,
     PoissonPolynomials,
     Polynomial,
-    collected,
     kernel_modulo,
     kernel_vector,
     monomial_order,
@@ -245,7 +245,7 @@ def times(f: Polynomial, g: Polynomial, p: int) -> Polynomial:
     """The product of two polynomials, modulo p, where that is not 0; {} counts as 1."""
     if not f or not g:
         return f or g
-    found = collected(multiplied(f, g))
+    found = summed(multiplied(f, g))
     return {e: x % p for e, x in found.items() if x % p} if p else found
 
 

@@ -6,7 +6,6 @@ from collections.abc import Iterable, Sequence
 from fractions import Fraction
 from typing import Any
 
-from ...algebra.groups import Group
 from ...language.limits import Refused, tell
 from ...language.tree import Tree, add, mul, neg, nodes, plain
 from ...problem.problem import Problem
@@ -24,7 +23,7 @@ from .all_integrals import (
 )
 from .degree_search import TooLargeError, how_many, unknowns
 from .lie_poisson import Level, LiePoisson, PoissonPolynomials
-from .parameter_cases import Case, grading
+from .parameter_cases import Stratum, grading
 from .reduced import NotReducedError, reduced, without_energy
 
 # The steps of a record that say what integrals there are.
@@ -62,14 +61,9 @@ def _reduced(
     kind = "poisson.group" if only else "poisson.advected"
     prose = draft.claim(kind, dimension=len(system.variables)) + _weights(result, draft)
     own = any(isinstance(x, tuple) and x[1] == "A" for x in system.variables)
-    if own and _has_relations(system.group):
+    if own and any(x.linear_basis and x.relations for _, x in system.group.places):
         prose += say("poisson.independent")
     return draft.step(equations, prose + (say("poisson.undriven") if driven else ()))
-
-
-def _has_relations(group: Group) -> bool:
-    """Are there relations between the entries of g, other than that some are numbers?"""
-    return any(x.linear_basis and x.relations for _, x in group.places)
 
 
 def _weights(result: IntegralsFound, draft: Draft) -> Prose:
@@ -213,7 +207,7 @@ def _rate(result: IntegralsFound, found: ParameterConditions, x: Condition, f: A
     }
     left, summed = algebra.derivative(terms), []
     for j, value in x.case.solved:
-        there = found.cases.polynomial_at(Case(((j, value),)), left)
+        there = found.cases.polynomial_at(Stratum(((j, value),)), left)
         zero = algebra.field.gens[j] - value
         quotient = {
             e: (left.get(e, algebra.field.zero) - there.get(e, algebra.field.zero)) / zero
@@ -233,7 +227,7 @@ def solved_letter(algebra: PoissonPolynomials, j: int, value: Any) -> tuple[Tree
     return name if name == "π" else ("par", name), algebra.number_tree(value)
 
 
-def case_tree(algebra: PoissonPolynomials, case: Case, *others: Any) -> Tree:
+def case_tree(algebra: PoissonPolynomials, case: Stratum, *others: Any) -> Tree:
     """The equations of a case: letters, each with its value; and others ``beside``, that vanish."""
     rows = [solved_letter(algebra, j, value) for j, value in case.solved]
     rows += [(algebra.number_tree(algebra.field(f)), 0) for f in others]

@@ -11,6 +11,7 @@ from typing import Any
 
 from ...algebra.exact_kernel import kernel, pivots
 from ...algebra.groups import Group
+from ...language.rational import summed
 from ...language.tree import Tree, add, coefficient, mul
 from ...language.values import value
 
@@ -20,14 +21,6 @@ Polynomial = dict[Exponents, Any]
 Linear = Mapping[int, Fraction]
 """A linear form Σ c_k x_k, by k from 0; −1 stands for the constant."""
 ONE = -1
-
-
-def collected(terms: Iterable[tuple[Exponents, Any]]) -> Polynomial:
-    """The sum of some terms, those of the same exponents together."""
-    found: Polynomial = {}
-    for e, c in terms:
-        found[e] = found[e] + c if e in found else c
-    return {e: c for e, c in found.items() if c}
 
 
 def multiplied(f: Polynomial, g: Polynomial) -> Iterator[tuple[Exponents, Any]]:
@@ -129,12 +122,12 @@ class PoissonPolynomials:
         for j in range(self.size):
             for i, image in self.along(j).items():
                 found.setdefault(i, []).extend(multiplied(slope(self.hamiltonian, j), image))
-        return {i: collected(terms) for i, terms in found.items()}
+        return {i: summed(terms) for i, terms in found.items()}
 
     def derivative(self, f: Polynomial) -> Polynomial:
         """{F, H} over the field."""
         images = self.flow.items()
-        return collected(x for i, image in images for x in multiplied(slope(f, i), image))
+        return summed(x for i, image in images for x in multiplied(slope(f, i), image))
 
     # -- coefficients --------------------------------------------------------------------------
 
@@ -310,7 +303,7 @@ class Level:
 
     def reduced(self, terms: Iterable[tuple[Exponents, Any]]) -> Polynomial:
         """The normal form of a sum of terms."""
-        return collected((k, c * x) for e, c in terms for k, x in self.normal(e).items())
+        return summed((k, c * x) for e, c in terms for k, x in self.normal(e).items())
 
     def quotient(self, f: Polynomial) -> Polynomial:
         """What the Casimir is multiplied by in a polynomial over the field that is a multiple."""
@@ -320,7 +313,7 @@ class Level:
             c = left.pop(e)
             own = tuple(x - y for x, y in zip(e, self.lead, strict=True))
             found[own] = c * self.sign
-            left = collected([*left.items(), *multiplied({own: c}, self.rest)])
+            left = summed([*left.items(), *multiplied({own: c}, self.rest)])
         return found
 
     def contains(self, f: Any) -> bool:

@@ -18,7 +18,7 @@ Values = dict[int, Any]
 
 
 @dataclass(frozen=True)
-class Case:
+class Stratum:
     """``solved``: letters with their values, in which no solved letter occurs; ``nonzero``:
     polynomials in the others that do not vanish."""
 
@@ -49,14 +49,14 @@ class Cases:
 
     # -- values --------------------------------------------------------------------------------
 
-    def at(self, case: Case, c: Any) -> Any:
+    def at(self, case: Stratum, c: Any) -> Any:
         """An element of the field in a case; ``ZeroDivisionError`` where it has none."""
         if not case.solved:
             return c
         values = dict(case.solved)
         return self._polynomial(c.numer, values) / self._polynomial(c.denom, values)
 
-    def polynomial_at(self, case: Case, f: Polynomial) -> Polynomial:
+    def polynomial_at(self, case: Stratum, f: Polynomial) -> Polynomial:
         """A polynomial in x over the field, in a case."""
         found = {e: self.at(case, c) for e, c in f.items()}
         return {e: c for e, c in found.items() if c}
@@ -69,7 +69,7 @@ class Cases:
             total += prod(powers, start=self.field(c))
         return total
 
-    def inside(self, case: Case, wider: Case) -> bool:
+    def inside(self, case: Stratum, wider: Stratum) -> bool:
         """Is every point of a case one of the closure of another?"""
         try:
             return all(
@@ -81,7 +81,7 @@ class Cases:
 
     # -- where a polynomial vanishes -----------------------------------------------------------
 
-    def vanishing(self, case: Case, f: Any) -> list[Case] | None:
+    def vanishing(self, case: Stratum, f: Any) -> list[Stratum] | None:
         """The cases within one in which an irreducible polynomial in its letters vanishes; ``None``
         where it is of first order in no letter."""
         if self.never_zero(case, f):
@@ -114,12 +114,12 @@ class Cases:
                     found += again
         return found
 
-    def never_zero(self, case: Case, f: Any) -> bool:
+    def never_zero(self, case: Stratum, f: Any) -> bool:
         """Does a polynomial vanish for none of the parameters of a case, or only where a factor
         vanishes that does not?"""
         return all(self._never_zero(case, g) for g in self.factors(f))
 
-    def _never_zero(self, case: Case, f: Any) -> bool:
+    def _never_zero(self, case: Stratum, f: Any) -> bool:
         known = {*self.units, *case.nonzero}
         if f in known or -f in known:
             return True
@@ -158,7 +158,7 @@ class Cases:
         found = {tuple(sorted({*x})) for x in product(*sets)}
         return sorted(x for x in found if not any({*y} < {*x} for y in found))
 
-    def _linear_in(self, case: Case, f: Any) -> int | None:
+    def _linear_in(self, case: Stratum, f: Any) -> int | None:
         """The letter for which a polynomial is solved, one with a coefficient that never vanishes
         before others."""
         first = None
@@ -170,10 +170,10 @@ class Cases:
         return first
 
     def _with(
-        self, case: Case, values: Sequence[tuple[int, Any]], nonzero: Sequence[Any]
-    ) -> Iterator[Case]:
+        self, case: Stratum, values: Sequence[tuple[int, Any]], nonzero: Sequence[Any]
+    ) -> Iterator[Stratum]:
         """The case with these values as well, where it is one."""
-        step = Case((*values,))
+        step = Stratum((*values,))
         try:
             solved = [(j, self.at(step, y)) for j, y in case.solved]
             found = [self.at(step, self.field(f)) for f in (*case.nonzero, *nonzero, *self.units)]
@@ -185,7 +185,7 @@ class Cases:
         if any(j in self.positive and self._not_positive(y) for j, y in whole):
             return
         kept = {g for f in found for g in self.factors(f.numer) if g not in self.units}
-        yield Case(whole, (*sorted(kept, key=str),))
+        yield Stratum(whole, (*sorted(kept, key=str),))
 
     def _not_positive(self, y: Any) -> bool:
         """Is a value surely not positive?"""

@@ -60,7 +60,9 @@ def reduced(problem: Problem) -> LiePoisson:
     require_group(problem)
     group, given = problem.own_group, problem.own_lagrangian
     L = with_constant_entries(given.L, group)
-    parameters = _letters(L, problem)
+    used = {*nodes(L)}
+    declared = tuple(x for x in problem.parameters if ("par", x) in used)
+    parameters = (*declared, "π") if "π" in used else declared
     symbolic = _Symbolic(problem.name, L, group, parameters)
     system, entries = _without_energy(problem)
     return replace(system, hamiltonian=symbolic.hamiltonian(entries), parameters=parameters)
@@ -106,13 +108,6 @@ def _entries(L: Tree) -> list[Place]:
     return sorted({_place(x) for x in nodes(L) if isinstance(x, tuple) and x[:2] in kinds})
 
 
-def _letters(L: Tree, problem: Problem) -> tuple[str, ...]:
-    """The parameters in ℓ, in the order in which they are declared; π is one of them."""
-    used = {*nodes(L)}
-    declared = tuple(x for x in problem.parameters if ("par", x) in used)
-    return (*declared, "π") if "π" in used else declared
-
-
 # -- the brackets -------------------------------------------------------------------------------
 
 Place = tuple[int, ...]
@@ -128,7 +123,10 @@ def _brackets(
 
     def moved_by(place: Place, b: int) -> dict[Place | None, Fraction]:
         if len(place) == 1:
-            return _advected_rate(group, epsilon, place, b, carried)
+            # −ε(ρ(E_b)Γ)_i, ρ(E_b) the last block of E_b
+            (i,), first = place, group.n - carried
+            row = group.basis[b][first + i][first:]
+            return {(j,): Fraction(-epsilon * c) for j, c in enumerate(row) if c}
         return _tangent_entry(group, epsilon, place, b)
 
     entries = sorted(used)
@@ -160,15 +158,6 @@ def _tangent_entry(
             key = x if isinstance(x, tuple) else None
             found[key] = found.get(key, Fraction(0)) + c
     return {x: c for x, c in found.items() if c}
-
-
-def _advected_rate(
-    group: Group, epsilon: int, place: Place, b: int, size: int
-) -> dict[Place | None, Fraction]:
-    """−ε(ρ(E_b)Γ)_i, ρ(E_b) the last block of E_b, of this size."""
-    (i,), first = place, group.n - size
-    row = group.basis[b][first + i][first:]
-    return {(j,): Fraction(-epsilon * c) for j, c in enumerate(row) if c}
 
 
 def entry(group: Group, i: int, j: int) -> Place | int:

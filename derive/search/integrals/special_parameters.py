@@ -25,7 +25,7 @@ from .degree_search import (
     system_rows,
 )
 from .lie_poisson import Exponents, LiePoisson, Polynomial
-from .parameter_cases import Case, Cases
+from .parameter_cases import Cases, Stratum
 
 LETTERS = 6
 """The most parameters."""
@@ -113,17 +113,17 @@ class _Drop:
     def __init__(self, result: IntegralsFound, cases: Cases):
         self.result, self.cases = result, cases
         self.there: list[Condition] = []
-        self.unsolved: list[tuple[Case, Any]] = []
+        self.unsolved: list[tuple[Stratum, Any]] = []
         self.work = 0
 
     def search(self, rows: Sequence[Sparse], degree: Fraction) -> None:
         """Add the conditions under which the rank of these rows drops."""
         self.rows, self.degree, self.rank = rows, degree, len(rows)
-        self.rank, factors = self._pivots(Case())
+        self.rank, factors = self._pivots(Stratum())
         seen: set[tuple[tuple[int, Any], ...]] = set()
-        level = [*self._within(Case(), factors)]
+        level = [*self._within(Stratum(), factors)]
         while level:  # few equations first
-            following: list[Case] = []
+            following: list[Stratum] = []
             for case in level:
                 if case.solved not in seen and not self.known(case):
                     seen.add(case.solved)
@@ -134,13 +134,13 @@ class _Drop:
                         self.there.append(condition(self.result, self.cases, case, degree))
             level = following
 
-    def known(self, case: Case, but: Condition | None = None) -> bool:
+    def known(self, case: Stratum, but: Condition | None = None) -> bool:
         """Is a case within that of a condition that is found?"""
         return any(x is not but and self.cases.inside(case, x.case) for x in self.there)
 
     def _within(
-        self, case: Case, factors: Iterable[Any], avoided: frozenset[Any] = frozenset()
-    ) -> Iterator[Case]:
+        self, case: Stratum, factors: Iterable[Any], avoided: frozenset[Any] = frozenset()
+    ) -> Iterator[Stratum]:
         """The cases within one in which some factor vanishes, and all that are ``avoided`` may."""
         for f in factors:
             found = self.cases.vanishing(case, f)
@@ -159,7 +159,9 @@ class _Drop:
                 else:
                     yield from self._within(inner, self.cases.factors(left.numer))
 
-    def _pivots(self, case: Case, avoided: frozenset[Any] = frozenset()) -> tuple[int, list[Any]]:
+    def _pivots(
+        self, case: Stratum, avoided: frozenset[Any] = frozenset()
+    ) -> tuple[int, list[Any]]:
         """The rank in a case, at most the generic one, and the factors of the pivots and of what
         rows were divided by that may vanish in it, if possible without those ``avoided``."""
         field = self.cases.field
@@ -186,7 +188,7 @@ class _Drop:
         self,
         rows: Sequence[tuple[Sparse, frozenset[Any]]],
         found: Mapping[Any, None],
-        case: Case,
+        case: Stratum,
         avoided: frozenset[Any],
     ) -> tuple[int, int, frozenset[Any]]:
         """The row and the column of a pivot with few new factors and terms, and its factors."""
@@ -206,13 +208,13 @@ class _Drop:
         assert best is not None
         return best[1:]
 
-    def _factors(self, f: Any, case: Case) -> frozenset[Any]:
+    def _factors(self, f: Any, case: Stratum) -> frozenset[Any]:
         """The irreducible factors of a polynomial that may vanish."""
         factors = self.cases.factors(f)
         return frozenset(g for g in factors if not self.cases.never_zero(case, g))
 
     def _divided(
-        self, row: Sparse, debts: frozenset[Any], case: Case
+        self, row: Sparse, debts: frozenset[Any], case: Stratum
     ) -> tuple[Sparse, frozenset[Any]]:
         """A row without a common factor, which is noted among its debts."""
         common = reduce(lambda x, y: x.gcd(y), row.values())
@@ -242,7 +244,7 @@ class _Drop:
 # -- the integrals in a case ----------------------------------------------------------------------
 
 
-def system_in(result: IntegralsFound, cases: Cases, case: Case) -> LiePoisson:
+def system_in(result: IntegralsFound, cases: Cases, case: Stratum) -> LiePoisson:
     """The equations in a case, in the letters that are left."""
     algebra, system = result.system.algebra, result.system
     solved = {system.parameters[j] for j, _ in case.solved}
@@ -254,7 +256,7 @@ def system_in(result: IntegralsFound, cases: Cases, case: Case) -> LiePoisson:
     )
 
 
-def condition(result: IntegralsFound, cases: Cases, case: Case, degree: Fraction) -> Condition:
+def condition(result: IntegralsFound, cases: Cases, case: Stratum, degree: Fraction) -> Condition:
     """What there is in a case beside the generic integrals, verified over its letters."""
     system = system_in(result, cases, case)
     algebra, generic = system.algebra, result.system.algebra

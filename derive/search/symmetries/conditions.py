@@ -24,7 +24,7 @@ from ...language.show import show
 from ...language.tree import Tree, nodes
 from ...problem.fields import coordinates
 from ...problem.problem import Problem, ProblemError
-from .gradient import Functions, Tape
+from .gradient import FunctionsAtPoints, Tape
 from .scalar_lagrangian import ParameterValues, entries, is_root, varying
 
 # The fields Yg − gX that are tangent to a group at each of its elements.
@@ -234,7 +234,7 @@ class SymmetryConditions:
         values = {
             x: ResidueVector([c for c in v for _ in range(points)], p) for x, v in drawn.items()
         }
-        found = Functions(source, true_roots=self.true_roots)
+        found = FunctionsAtPoints(source, true_roots=self.true_roots)
         point = SamplePoints(self, source, values, found)
         enough: dict[int, list[int]] = {}
         for k in range(count):
@@ -259,7 +259,7 @@ class SamplePoints:
         system: SymmetryConditions,
         source: ResidueVectorSource,
         parameters: Mapping[Tree, ResidueVector],
-        found: Functions,
+        found: FunctionsAtPoints,
     ):
         group, self.unknowns, self.side = system.group, system.unknowns, system.side
         zero = source.constant(0)

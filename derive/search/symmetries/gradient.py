@@ -110,7 +110,7 @@ class Tape:
 CIRCULAR, HYPERBOLIC = ("sin", "cos", "tan"), ("sinh", "cosh", "tanh")
 
 
-class Functions:
+class FunctionsAtPoints:
     """Values of elementary functions at the points: true square roots, where there are any; sin,
     cos and tan by a point of the circle, sinh, cosh and tanh by one of the hyperbola; another
     function has any number as its value at each argument, and so has a root where not
@@ -143,9 +143,9 @@ class Functions:
         self.known.append((name, x, value))
         return value
 
-    def at(self, places: Sequence[int], source: ResidueVectorSource) -> Functions:
+    def at(self, places: Sequence[int], source: ResidueVectorSource) -> FunctionsAtPoints:
         """The same at some of the points; ``source``: of so many."""
-        found = Functions(source, true_roots=self.true_roots)
+        found = FunctionsAtPoints(source, true_roots=self.true_roots)
         found.known = [(name, x.at(places), y.at(places)) for name, x, y in self.known]
         return found
 
@@ -168,7 +168,7 @@ class Evaluated:
 
     def at(self, places: Sequence[int], source: ResidueVectorSource) -> Evaluated:
         """The same, of residues, at some of the points; ``source``: of so many."""
-        assert isinstance(self.found, Functions)
+        assert isinstance(self.found, FunctionsAtPoints)
         values = [x.at(places) for x in self.values]
         return Evaluated(self.tape, values, source, self.found.at(places, source))
 

@@ -26,7 +26,7 @@ from ...problem.fields import coordinates
 from ...problem.problem import Problem, ProblemError
 from ...record.record import Derivation
 from ...schema.kind import Lagrangian, Parameter
-from .gradient import Functions, Tape
+from .gradient import FunctionsAtPoints, Tape
 
 # The entries of g that a Lagrangian may name, and those that vary in the group.
 
@@ -151,7 +151,7 @@ class ParameterValues:
     def _good(self) -> Iterator[int]:
         for p, _ in zip(primes_from(PRIMES[0]), range(MOST_PRIMES), strict=False):
             source = ResidueVectorSource(p, 1, 0)
-            found = Functions(source)
+            found = FunctionsAtPoints(source)
             for x in self.roots_of_numbers:
                 Tape(x).at({}, source, found)
             if all(found.valid):
@@ -161,7 +161,7 @@ class ParameterValues:
         """Up to so many values of each at which its roots are true: residues."""
         many = count << (len(self.roots) - len(self.roots_of_numbers))
         source = ResidueVectorSource(p, many, seed)
-        found = Functions(source)
+        found = FunctionsAtPoints(source)
         values: dict[Tree, ResidueVector] = {x: source.randint(1, 1) for x in self.letters}
         for x in self.functions:
             values[x] = Tape(x).at(values, source, found).value
@@ -172,7 +172,9 @@ class ParameterValues:
         """The residue of an expression in parameters, by values of what it is made of."""
         source = ResidueVectorSource(p, 1, 0)
         leaves = {x: source.constant(v) for x, v in values.items()}
-        found: ResidueVector = Tape(t, self.functions).at(leaves, source, Functions(source)).value
+        found: ResidueVector = (
+            Tape(t, self.functions).at(leaves, source, FunctionsAtPoints(source)).value
+        )
         return found.values[0]
 
 

@@ -17,7 +17,7 @@ import numpy as np
 from ...check.values.evaluate import ELEMENTARY
 from ...language.rational import RingElement
 from ..straight_line import Measured
-from ..terms import CodeError, Expression, Run, Statement
+from ..terms import CodeError, Expression, Interpreter, Statement
 from .loop_reader import WHOLE, Kind, LoopReader, Routine
 
 Names = dict[str, Any]
@@ -52,7 +52,7 @@ class Shifted:
         return self.array[self.place + i]
 
 
-class Loops(Run):
+class LoopInterpreter(Interpreter):
     """The functions of a file; ``literal``: the residue of a decimal, ``elementary``: of a function
     at one, ``p``: the modulus."""
 

@@ -41,7 +41,7 @@ from ..syntax import SYNTAX, tokens
 from ..terms import CodeError, DiffersError
 from .loop_reader import LoopReader
 from .loops_of_languages import CLoopReader, JuliaLoopReader
-from .run_loops import Cells, ExactLibrary, Loops
+from .run_loops import Cells, ExactLibrary, LoopInterpreter
 
 TABLE = 9
 """The largest N of which a file may have a table of the terms, with products as decimals."""
@@ -270,7 +270,7 @@ def compare_loops(
     """The verdict on a file, read with its loops."""
     text = loops_of(name, files, prefix)
     module = text.module()
-    reader = Loops(text, claims.p, claims.number, claims.elementary)
+    reader = LoopInterpreter(text, claims.p, claims.number, claims.elementary)
     dimension = len(claims.names)
     _require_lists([module.state, module.parameters, module.inputs], module.sizes, claims)
     size = max(module.sizes["CONSTANTS"], 0)
@@ -312,7 +312,7 @@ def measured(x: Sequence[int]) -> Cells:
     return found
 
 
-def _compare_batch(reader: Loops, claims: TorusClaims, t: Any, k: Cells) -> None:
+def _compare_batch(reader: LoopInterpreter, claims: TorusClaims, t: Any, k: Cells) -> None:
     """``rhs_batch`` on some states beside ``rhs``: an index is made of n and s by sums and products
     alone, so that three counts tell two apart.
 

@@ -38,7 +38,7 @@ ABOUT_A_POINT = {*range(21, 36), 39}
 
 
 @dataclass(frozen=True)
-class Printed:
+class PrintedEquation:
     """One numbered equation of the paper.
 
     ``reads``: its print; ``means``: what that says, in full, or the parts that are to be read in
@@ -90,7 +90,7 @@ def remarks() -> dict[int, tuple[str, ...]]:
     return {int(n): texts for numbers, texts in listed for n in numbers.split()}
 
 
-claim, definition = partial(Printed, True), partial(Printed, False)
+claim, definition = partial(PrintedEquation, True), partial(PrintedEquation, False)
 
 
 def permuted(text: str) -> str:
@@ -104,7 +104,7 @@ def permuted(text: str) -> str:
 NONE = ""
 ON_Y = {"(δx, δ′x)": "(δy, δ′y)"}
 
-PAPER: tuple[Printed, ...] = (
+PAPER: tuple[PrintedEquation, ...] = (
     definition(1, "‖r_i − r_j‖ = cst", NONE),
     definition(2, "dr_i/dt = v_i,  m_i dv_i/dt = F_i,  F_i = −∂U/∂r_i", NONE),
     definition(3, "L(t, r, v) = Σ m_i v_i²/2 − U", {"(t, r, v)": "", "m_i v_i²/2": "m_i/2 ‖v_i‖²"}),
@@ -252,7 +252,7 @@ def amendments(numbers: Container[int]) -> list[PaperFinding]:
 
 
 def holds(
-    p: Printed, equation: Equation, size: int = SIZE, seed: int = 0, *, forces: bool = True
+    p: PrintedEquation, equation: Equation, size: int = SIZE, seed: int = 0, *, forces: bool = True
 ) -> bool:
     """Does a printed equation hold at a random exact point of its group?"""
     return not bool(difference(equation, _anywhere(p.group, p.principal, size, seed, forces)))
@@ -264,7 +264,7 @@ def _anywhere(group: str, principal: bool, size: int, seed: int, forces: bool) -
     return situation(group, principal, Random(f"paper {group} {seed}"), size, forces=forces)
 
 
-def _cause(p: Printed) -> str:
+def _cause(p: PrintedEquation) -> str:
     """The verdict on a print that is false as it stands: sign convention, omission or misprint."""
     if all(holds(p, _other_sign(e)) for e in p.equations):
         return SIGN
@@ -284,7 +284,7 @@ def _other_sign(e: Equation) -> Equation:
 
 
 def point(
-    p: Printed, size: int, seed: int, draw: type[Random] = Random, *, forces: bool = True
+    p: PrintedEquation, size: int, seed: int, draw: type[Random] = Random, *, forces: bool = True
 ) -> Environment:
     """A random exact point for one printed equation."""
     random = draw(f"paper {p.number} {seed}")
@@ -312,7 +312,7 @@ def _meaningless(model: Model) -> dict[str, Any]:
     return {"f′": Z, "φ′": ((Z[2][1],), (Z[0][2],), (Z[1][0],))}
 
 
-def _finding(p: Printed, records: Sequence[Derivation]) -> PaperFinding:
+def _finding(p: PrintedEquation, records: Sequence[Derivation]) -> PaperFinding:
     false = [e for e in p.equations if not holds(p, e)]
     verdict = _cause(p) if false else CONFIRMED if p.claim else DEFINITION
     counterexample = _counterexample(p, false[0]) if false else None
@@ -321,7 +321,7 @@ def _finding(p: Printed, records: Sequence[Derivation]) -> PaperFinding:
     return PaperFinding(p.number, verdict, p.reads, derived, counterexample, p.remark, tuple(false))
 
 
-def _derived(p: Printed, records: Iterable[Derivation]) -> str | None:
+def _derived(p: PrintedEquation, records: Iterable[Derivation]) -> str | None:
     """What the records derive, as text: the printed left sides in the steps that carry the number.
 
     Failing that, all that such a step says; failing that, the left sides wherever they stand.
@@ -338,13 +338,15 @@ def _derived(p: Printed, records: Iterable[Derivation]) -> str | None:
     return ";  ".join(dict.fromkeys(f"{show(e.lhs)} = {show(e.rhs)}" for e in found)) or None
 
 
-def _suits(record: Derivation, p: Printed) -> bool:
+def _suits(record: Derivation, p: PrintedEquation) -> bool:
     """Is an equation to be read in this record: of SE(3) in the affine one, others in that of
     SO(3)?"""
     return bool((record.problem["action"] == "affine") == (p.group == "SE(3)"))
 
 
-def _counterexample(p: Printed, equation: Equation, tries: int = 1000) -> dict[str, str] | None:
+def _counterexample(
+    p: PrintedEquation, equation: Equation, tries: int = 1000
+) -> dict[str, str] | None:
     """Small exact values of the names in the equation, of a body with a positive definite J, at
     which its sides differ, if any."""
     for seed in range(p.seed, p.seed + tries):

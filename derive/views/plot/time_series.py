@@ -50,7 +50,7 @@ def letters(run: Run, kind: str = "state") -> list[tuple[str, list[Column]]]:
 
 
 @dataclass(frozen=True)
-class Panel:
+class CurvesOfUnit:
     """Curves of one unit, by their names."""
 
     name: str
@@ -58,7 +58,7 @@ class Panel:
     curves: dict[str, Array]
 
 
-def turned(run: Run, key: str, members: list[Column], word: Any) -> Panel | None:
+def turned(run: Run, key: str, members: list[Column], word: Any) -> CurvesOfUnit | None:
     """Of a rotation of space the tip of the axis of a symmetric body, of another that of the axis
     that goes least far, of one of the plane its angle: all entries say no more, and hide it.
     ``None`` of other columns."""
@@ -72,12 +72,12 @@ def turned(run: Run, key: str, members: list[Column], word: Any) -> Panel | None
     if n == 2:
         angle: Array = np.full(len(A), np.nan)
         angle[there] = np.unwrap(np.arctan2(A[there, 1, 0], A[there, 0, 0]))
-        return Panel(word("angle"), "rad", {word("angle"): angle})
+        return CurvesOfUnit(word("angle"), "rad", {word("angle"): angle})
     body = run.facts.get("body", {}) if key == "A" else {}
     axis = symmetry_axis(np.array(body["inertia"])) if "inertia" in body else body.get("axis", 0)
     k = axis - 1 if axis else int(np.argmin(paths(A)))
     tip = {label(members[n * i + k].name): A[:, i, k] for i in range(n)}
-    return Panel(f"{word(BODY_AXIS).format(k=k + 1)}\n{label(key)}$\\,e_{k + 1}$", "", tip)
+    return CurvesOfUnit(f"{word(BODY_AXIS).format(k=k + 1)}\n{label(key)}$\\,e_{k + 1}$", "", tip)
 
 
 INDICES = [[f"{i}{j}" for i in range(1, n + 1) for j in range(1, n + 1)] for n in (2, 3)]
@@ -108,7 +108,7 @@ def state(figure: Any, run: Run, word: Any, kind: str = "state") -> None:
     axes[-1].set_xlabel(time_label(run) + missing(run, word, kind) + f"\n{told}".rstrip())
 
 
-def panels(run: Run, word: Any, kind: str) -> tuple[list[Panel], str]:
+def panels(run: Run, word: Any, kind: str) -> tuple[list[CurvesOfUnit], str]:
     """Those of :func:`state` with what has instants enough for a curve; and lines that say what has
     too few, and how many would do, empty where nothing has."""
     found, fast, most = [], [], 0.0
@@ -116,7 +116,7 @@ def panels(run: Run, word: Any, kind: str) -> tuple[list[Panel], str]:
         drawn = turned(run, key, members, word) if kind == "state" else None
         if drawn is None:
             curves = {label(x.name): run[x.name] for x in members}
-            drawn = Panel(label(key), members[0].unit, curves)
+            drawn = CurvesOfUnit(label(key), members[0].unit, curves)
         size, slow = max(float(np.abs(known(y)).max()) for y in drawn.curves.values()), {}
         for name, y in [*drawn.curves.items()][:MOST]:
             if (often := _turning_back(y, size)) > OFTEN:

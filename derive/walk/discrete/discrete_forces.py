@@ -17,7 +17,7 @@ from ...record.sentence import enumerated
 from ..chapter import Chapter, WalkError, say
 from ..given.body_and_potentials import Potentials, body_step, potentials
 from ..given.inputs import acts, damping_coefficients, external_matrices, where_given
-from ..matrices.conserved import ConservedMomentum, kept_momenta
+from ..matrices.conserved import kept_momenta
 from ..spine.alphabet import Alphabet, cancel_scalar, cancelling, inverse_letter
 from ..spine.lagrangian import sum_over
 from .discrete_blocks import Blocks
@@ -204,7 +204,7 @@ def conserved(
     for x in momenta:
         momentum = _momentum(stage, ends, a, b, turning=x.turning)
         draft.depends_on(momentum, forces.potential.energy)
-        names = _names(x)
+        names = ("ℓ_0", "ℓ_1") if x.turning else ("p_0", "p_1")
         for name, e in zip(names, (momentum, _onward(momentum, a, b)), strict=True):
             definitions.append(Equation(name, tree_of(e, b.notation)))
         change = add(names[1], neg(names[0]))
@@ -213,10 +213,6 @@ def conserved(
     sentence = enumerated(sum((x.law for x in momenta), ()))
     prose = say("conserved.discrete", kept=sentence)
     return (draft.step((*definitions, *laws), prose),)
-
-
-def _names(x: ConservedMomentum) -> tuple[str, str]:
-    return ("ℓ_0", "ℓ_1") if x.turning else ("p_0", "p_1")
 
 
 def _momentum(

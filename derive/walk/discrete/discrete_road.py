@@ -196,15 +196,10 @@ def one_forms(stage: DiscreteLagrangian, a: DiscreteAlphabet, c: Chapter) -> One
 
 def _at_end(d: Draft, e: Expr, a: DiscreteAlphabet) -> Tree:
     """The tree of the part of a variation at one end, with g₁ − g₀ and the moments of forces."""
-    core = _gathered(e, a)
-    return factored_tree(d, e, core, {a.difference: a.step}, a.notation)
-
-
-def _gathered(e: Expr, a: DiscreteAlphabet) -> Expr:
-    """The terms with g₁ as those of g₁ − g₀, and those without either."""
     moving = terms_with(e, a.g[1])
     rest = terms_with(e, *a.N[:2])
-    return substitute(moving, {a.g[1]: word(a.difference)}) + rest
+    core = substitute(moving, {a.g[1]: word(a.difference)}) + rest
+    return factored_tree(d, e, core, {a.difference: a.step}, a.notation)
 
 
 def exterior(stage: OneForms, a: DiscreteAlphabet, c: Chapter) -> Step:

@@ -33,7 +33,7 @@ Push = ForceInput | TorqueInput | StatedForce
 TORQUE, FORCE = Letter("u", 3), Letter("f_u", 3)
 
 
-class Part(NamedTuple):
+class Wrench(NamedTuple):
     """What acts by one name, among the moments and in the resultant, 0 where it is in none."""
 
     name: str
@@ -49,7 +49,7 @@ class External:
     moments: Expr
     resultant: Expr
     steps: tuple[Step, ...]
-    parts: tuple[Part, ...] = ()
+    parts: tuple[Wrench, ...] = ()
 
 
 def acts(problem: Problem) -> bool:
@@ -240,7 +240,8 @@ def external_matrices(problem: Problem, b: Alphabet, C: Expr, c: Chapter) -> Ext
     definitions, drag = _damping(problem, b)
     drag = reduce(drag, body_rule(b, C))
     xi, eta = Letter("ξ′", b.n, b.n), Letter("η′", b.n)
-    parts = [Part(UNNAMED_DAMPING, draft.tree(gradient(drag, xi)), draft.tree(gradient(drag, eta)))]
+    drags = (draft.tree(gradient(drag, x)) for x in (xi, eta))
+    parts = [Wrench(UNNAMED_DAMPING, *drags)]
     definitions += [*_velocities(draft, problem, b, {}), *named_forces(problem)]
     for e, given in pushes(problem):
         moments: list[Tree] = []
@@ -250,9 +251,9 @@ def external_matrices(problem: Problem, b: Alphabet, C: Expr, c: Chapter) -> Ext
             moments.append(mul(force, ("T", ("at", "r", given.on))))
         if couple := couple_of(problem, e, given):
             moments.append(_skew(problem, given, couple))
-        parts.append(Part(given.name or UNNAMED_FORCE, add(*moments), force))
+        parts.append(Wrench(given.name or UNNAMED_FORCE, add(*moments), force))
     for name, x in covectors(problem, group):
-        parts.append(Part(name, *_matrix_of_covector(group, b, x)))
+        parts.append(Wrench(name, *_matrix_of_covector(group, b, x)))
     return _external(problem, b, forces, draft, definitions, parts)
 
 
@@ -262,7 +263,7 @@ def _external(
     forces: Applied,
     draft: Draft,
     definitions: Sequence[Equation],
-    parts: Sequence[Part],
+    parts: Sequence[Wrench],
 ) -> External:
     """The sums of the parts, with their step."""
     moments, pulls = ([x.moment for x in parts], [x.pull for x in parts])
@@ -369,7 +370,7 @@ def external_vectors(
     definitions, drag = _damping(problem, b)
     turned, pulled = _in_vectors(drag, b, C, hat_map)
     draft.depends_on(turned, pulled)
-    parts = [Part(UNNAMED_DAMPING, vector_sum(turned), vector_sum(pulled))]
+    parts = [Wrench(UNNAMED_DAMPING, vector_sum(turned), vector_sum(pulled))]
     if problem.damping:
         definitions.append(Equation("I_D", tree_of(inertia_of(Letter("D", 3, 3, 1)))))
     definitions += _velocities(draft, problem, b, {b.Z.velocity: hat_map.hatted(ZETA)})
@@ -383,12 +384,12 @@ def external_vectors(
         if couple := couple_of(problem, e, given):
             torque = column(couple)
             moments.append(mul(("T", "A"), torque) if given.frame == "space" else torque)
-        parts.append(Part(given.name or UNNAMED_FORCE, add(*moments), force))
+        parts.append(Wrench(given.name or UNNAMED_FORCE, add(*moments), force))
     for k, (name, x) in enumerate(covectors(problem, problem.own_group)):
         whole: tuple[Tree, Tree] = (column(x[:3]), column(x[3:]))
         if problem.covector and k == 0:
             whole = (TORQUE.name, FORCE.name)
-        parts.append(Part(name, *(whole if b.affine else (whole[0], 0))))
+        parts.append(Wrench(name, *(whole if b.affine else (whole[0], 0))))
     return _external(problem, b, forces, draft, definitions, parts)
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 
 from ...algebra import calculus
@@ -117,7 +116,7 @@ def _kernel(form: Expr, a: Alphabet, c: Chapter) -> tuple[Step, ...]:
     contraction = Contraction(
         form,
         at_constant_time(form, a.dt, a.dpt),
-        _images(a),
+        contact([(a.Pi, a.Z)], a, {}),
         {a.Z.xi: word(a.Z.velocity)},
         {a.Pi.d_momentum: a.Pi.rate},
         (a.Pi.dp_momentum,),
@@ -130,10 +129,6 @@ def _kernel(form: Expr, a: Alphabet, c: Chapter) -> tuple[Step, ...]:
         along, say("second_order.any_lagrangian"), where=along, hypotheses=(REGULAR,)
     )
     return first, second, third
-
-
-def _images(a: Alphabet) -> Mapping[Letter, Expr]:
-    return contact([(a.Pi, a.Z)], a, {})
 
 
 def _notation(a: Alphabet, *others: Letter) -> WordNotation:

@@ -23,19 +23,8 @@ from ...problem.fields import coordinates, velocity_at_place
 from ...problem.lagrangian_tables import quotient_of
 from ...problem.problem import Problem, ProblemError
 from ...record.record import Equation, Step
+from ...schema import motion_kinds
 from ...schema.force_kinds import TorqueInput
-from ...schema.motion_kinds import (
-    AccelerationOutput,
-    DirectionOutput,
-    DistanceOutput,
-    ExpressionOutput,
-    Output,
-    PlaceOutput,
-    PowerOutput,
-    RateOutput,
-    SpecificForceOutput,
-    VelocityOutput,
-)
 from ..chapter import Chapter, Steps, say
 from ..given.body_and_potentials import Potentials
 from ..given.inputs import External, Push, couple_of, covectors, entries_of, pushes
@@ -88,9 +77,11 @@ def outputs(
     quotient = quotient_of(problem)
     given = []
     for x in problem.outputs:
-        if isinstance(x, PowerOutput):
+        if isinstance(x, motion_kinds.PowerOutput):
             draft.depends_on(*power)
-        found = [read_off(power, x.of)] if isinstance(x, PowerOutput) else places.read(x)
+        found = (
+            [read_off(power, x.of)] if isinstance(x, motion_kinds.PowerOutput) else places.read(x)
+        )
         if quotient and not all(quotient.keeps(with_numbers(problem, y)) for y in found):
             raise ProblemError(
                 f"output {x.name!r}: it depends on the velocity along, or the place on, symmetries "
@@ -180,40 +171,40 @@ class Places:
 
     # -- what is read off --------------------------------------------------------------------------
 
-    def read(self, x: Output) -> Trees:
+    def read(self, x: motion_kinds.Output) -> Trees:
         """The numbers of an output."""
         match x:
-            case ExpressionOutput():
+            case motion_kinds.ExpressionOutput():
                 return [_with(y, self.known) for y in x.y]
-            case RateOutput():
+            case motion_kinds.RateOutput():
                 turns = [_axial(_block(e, self.group.of_block(x.block))) for e in self.group.basis]
                 whole = [_dot(row, self.zeta) for row in _transposed(turns)]
                 return whole if self.left else self._turned_back(whole, x.block)
-            case DirectionOutput():
+            case motion_kinds.DirectionOutput():
                 d = self.group.in_block(x.block, x.direction)
                 turned = _times(self.A if x.frame == "space" else _transposed(self.A), d)
                 return turned[self.group.of_block(x.block)]
-            case DistanceOutput(anchor=anchor) if anchor is not None:
+            case motion_kinds.DistanceOutput(anchor=anchor) if anchor is not None:
                 at = self.group.of_block(self.problem.block(x.on))
                 place = _times(self.A, self.body[x.on - 1])[at]
                 return [hypot(*(add(y, neg(z)) for y, z in zip(place, anchor, strict=True)))]
-            case SpecificForceOutput(g=g) if g is not None:
-                there = AccelerationOutput(name=x.name, on=x.on, frame="body")
+            case motion_kinds.SpecificForceOutput(g=g) if g is not None:
+                there = motion_kinds.AccelerationOutput(name=x.name, on=x.on, frame="body")
                 block = self.problem.block(x.on)
                 falling = [*g] if not any(g) else self._turned_back(g, block)
                 pairs = zip(self._of_place(there), falling, strict=True)
                 return [add(y, neg(z)) for y, z in pairs]
-            case PlaceOutput():  # velocities and accelerations are such, too
+            case motion_kinds.PlaceOutput():  # velocities and accelerations are such, too
                 return self._of_place(x)
         raise ProblemError(f"output {x.name!r}: beside a Lagrangian no points have it")
 
-    def _of_place(self, x: PlaceOutput) -> Trees:
+    def _of_place(self, x: motion_kinds.PlaceOutput) -> Trees:
         """The place, the velocity or the acceleration of one, in a frame: Ä is A(Ż + Z²), on the
         right (Ż + Z²)A."""
         r, block = self.body[x.on - 1], self.problem.block(x.on)
-        moving = isinstance(x, VelocityOutput | AccelerationOutput)
+        moving = isinstance(x, motion_kinds.VelocityOutput | motion_kinds.AccelerationOutput)
         vector = self._along(self.zeta, r) if moving else _times(self.A, r)
-        if isinstance(x, AccelerationOutput):
+        if isinstance(x, motion_kinds.AccelerationOutput):
             again = _times(combined(self.group.basis, self.zeta, self.group.n), vector)
             rated = zip(self._along(self.rates, r), again, strict=True)
             vector = [add(*y) for y in rated]

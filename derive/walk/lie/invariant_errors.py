@@ -204,7 +204,9 @@ def kinematics_steps(problem: Problem, group: Group, c: Chapter) -> tuple[Step, 
             f"{problem.name}: kinematics, rate: A⁻¹ times it is not in the Lie algebra of "
             f"{group.name} everywhere, so that it leaves the group; correct it"
         )
-    first = _stated(velocity, acting)
+    first = acting.draft("kinematics", "definition").step(
+        [Equation(f("A"), matrix(velocity.rate)), Equation("Ȧ", f("A"))], say("kinematics.stated")
+    )
     tangent, errors = _tangent(group, first, acting), _errors(first, acting)
     told = [first, tangent, errors]
     if not velocity.group_affine:
@@ -214,12 +216,6 @@ def kinematics_steps(problem: Problem, group: Group, c: Chapter) -> tuple[Step, 
     linear = _log_linear(velocity, (rates, tangent), acting)
     noise = _noise(velocity.by_inputs(given.inputs), (first, errors, linear), acting)
     return (*told, affine, rates, linear, noise, _observation(errors, c))
-
-
-def _stated(velocity: Velocity, c: Chapter) -> Step:
-    return c.draft("kinematics", "definition").step(
-        [Equation(f("A"), matrix(velocity.rate)), Equation("Ȧ", f("A"))], say("kinematics.stated")
-    )
 
 
 def _tangent(group: Group, first: Step, c: Chapter) -> Step:

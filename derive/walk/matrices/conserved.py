@@ -35,7 +35,7 @@ UNITS = ((1, 0, 0), (0, 1, 0), (0, 0, 1))
 
 
 @dataclass(frozen=True)
-class Given:
+class PotentialsInSpace:
     """What the potentials are given by in space: ``vectors`` that are not 0; ``weighs``: is gravity
     one of them? ``W``: the matrix of harmonic forces."""
 
@@ -45,7 +45,7 @@ class Given:
     W: tuple[Vector, ...]
 
     @classmethod
-    def of(cls, problem: Problem) -> Given:
+    def of(cls, problem: Problem) -> PotentialsInSpace:
         """Of the potentials of a problem on one space."""
         n = problem.own_group.n
         weight = _not_zero([gravity(problem.potentials)])
@@ -262,7 +262,7 @@ def _turning(v: Potentials, b: Alphabet, *, vectors: bool) -> Tree | None:
     all rotations of space, or by those about the line; ``None`` where by neither."""
     if v.pointwise.forces:
         return None
-    given = Given.of(v.pointwise.problem)
+    given = PotentialsInSpace.of(v.pointwise.problem)
     Y = Letter("Y", b.n, b.n, -1)
     if not given.vectors and not _varied(v, word(Y), None, b, given.known(None)):
         return "ℓ̇"
@@ -285,7 +285,7 @@ def _shifting(group: Group, v: Potentials, b: Alphabet) -> Tree | None:
     space, or by those across gravity; ``None`` where by neither."""
     if not group.free_translations or not v.pointwise.shifts:
         return None
-    given = Given.of(v.pointwise.problem)
+    given = PotentialsInSpace.of(v.pointwise.problem)
     known = given.known(None)
     if not _varied(v, None, word(Letter("b", b.n)), b, known):
         return "ṗ"

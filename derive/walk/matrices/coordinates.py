@@ -214,7 +214,7 @@ STATE = (*RATES, "A", "T", "C", "Γ", "u", "f_u")
 
 
 @dataclass(frozen=True)
-class Balance:
+class LinearSystem:
     """Σ M_ab x_b = β_a for unknowns x_b, entries of ζ̇ (and ẇ)."""
 
     mass: tuple[tuple[Laurent, ...], ...]
@@ -222,7 +222,7 @@ class Balance:
     unknowns: tuple[Tree, ...]
 
 
-def solved(stage: Balance) -> tuple[Equation, ...] | None:
+def solved(stage: LinearSystem) -> tuple[Equation, ...] | None:
     """The equations of the unknowns, in order; ``None`` where one would be too long."""
     found: dict[int, Equation] = {}
     for block in _blocks(stage.mass):
@@ -281,7 +281,7 @@ def _blocks(mass: tuple[tuple[Laurent, ...], ...]) -> list[list[int]]:
     return found
 
 
-def _alone(stage: Balance, block: list[int]) -> list[Equation] | None:
+def _alone(stage: LinearSystem, block: list[int]) -> list[Equation] | None:
     """The rows of a block solved; ``None`` where that takes divisors of several terms, but for a
     single row, or of the state."""
     mass = [[stage.mass[a][b] for b in block] for a in block]
@@ -321,7 +321,7 @@ def _is_pivot(p: Laurent) -> bool:
     return len(p.terms) == 1 and not any(depends(s) for m in p.terms for s, _ in m)
 
 
-def _block_rows(stage: Balance, block: list[int]) -> list[Equation]:
+def _block_rows(stage: LinearSystem, block: list[int]) -> list[Equation]:
     """The rows of a block as they are."""
     sides = [
         add(*(_times(stage.mass[a][b], stage.unknowns[b]) for b in block if stage.mass[a][b]))

@@ -7,15 +7,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
 
-from ...algebra.calculus import (
-    PairRule,
-    coefficient_of,
-    gradient,
-    map_terms,
-    map_traces,
-    reduce,
-    substitute,
-)
+from ...algebra import calculus
 from ...algebra.word_trees import (
     PLAIN,
     WordNotation,
@@ -103,7 +95,7 @@ TURNING = AlgebraPart(
 SPINNING = Dual(SPIN, D_SPIN, DP_SPIN, SPIN_RATE, MU)
 
 
-def anticommute(v: Letter) -> PairRule:
+def anticommute(v: Letter) -> calculus.PairRule:
     """The rule ``v ∧ y = −y ∧ v``, which carries the vector v out of every j(v)."""
 
     def rule(left: Factor, right: Factor) -> Expr | None:
@@ -130,13 +122,13 @@ class HatMap:
         """A scalar in vectors: j(ζ) for Z, the inertia for traces with J, the moment μ for N_b."""
         b = self.letters
         images = self._hats(e) | {b.bracket: self.hatted(BRACKET)}
-        work = fold_inertia(substitute(e, images), b.J, word(INERTIA).marked(self.inertia))
+        work = fold_inertia(calculus.substitute(e, images), b.J, word(INERTIA).marked(self.inertia))
         return normal_form(fold_moment(work, b.N_body, MU))
 
     def vector(self, e: Expr) -> Expr:
         """A sum of skew letters as the sum of their axes (sums of vectors stay)."""
         images = self._hats(e)
-        return _flat(substitute(e, images) if images else e)
+        return _flat(calculus.substitute(e, images) if images else e)
 
     def hatted(self, x: Letter) -> Expr:
         """The matrix j(x), as said by the step ``hat``."""
@@ -147,8 +139,8 @@ class HatMap:
         """The letters of [ξ′, ξ] and ξ′η − ξη′ with their values in vectors, from the structure
         equation with ξ = j(Ω), ξ′ = j(Ω′)."""
         derived = brackets_of(self.letters).values()
-        turning, *others = (normal_form(substitute(e, self._axes(e))) for e in derived)
-        found = {BRACKET: reduce(axial(turning), anticommute(OMEGA))}
+        turning, *others = (normal_form(calculus.substitute(e, self._axes(e))) for e in derived)
+        found = {BRACKET: calculus.reduce(axial(turning), anticommute(OMEGA))}
         return found | dict(zip((self.letters.bracket_w,), others, strict=False))
 
     def _hats(self, e: Expr) -> dict[Letter, Expr]:
@@ -184,7 +176,7 @@ def fold_moment(e: Expr, moment: Letter, vector: Letter) -> Expr:
             return inner(word(vector), word(axes[0])) * (1 if barred else -1)
         return scalar_of((cycle,))
 
-    return map_traces(e, folded)
+    return calculus.map_traces(e, folded)
 
 
 def axial(e: Expr) -> Expr:
@@ -194,7 +186,7 @@ def axial(e: Expr) -> Expr:
         (y, _), (x, _) = w
         return scalar_of(traces, c / 2) * (word(hat(x)) * word(y))
 
-    return normal_form(map_terms(e, turned, zero(3, 1)))
+    return normal_form(calculus.map_terms(e, turned, zero(3, 1)))
 
 
 def _identification(b: Alphabet, C: Expr, cross: Expr, c: Chapter) -> Step:
@@ -227,5 +219,5 @@ def _inertia(b: Alphabet, c: Chapter) -> Step:
 def inertia_of(J: Letter) -> Expr:
     """The tensor I with  Tr j(ζ) J j(Ω)‾ = ⟨ζ, IΩ⟩,  by the double vector product under the
     trace."""
-    pairing = reduce(trace(word(hat(ZETA)) * word(J) * word(hat(OMEGA)).bar), double)
-    return coefficient_of(gradient(pairing, ZETA), OMEGA)
+    pairing = calculus.reduce(trace(word(hat(ZETA)) * word(J) * word(hat(OMEGA)).bar), double)
+    return calculus.coefficient_of(calculus.gradient(pairing, ZETA), OMEGA)

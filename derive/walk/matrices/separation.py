@@ -18,7 +18,7 @@ from ..given.body_and_potentials import U_Q, Potentials
 from ..given.potential_terms import column
 from ..spine.alphabet import Alphabet, cancel_scalar, cancelling, inverse_letter, inverses
 from ..spine.principle import AND
-from .coordinates import Balance, depends
+from .coordinates import LinearSystem, depends
 from .specialisation import KernelOnGroup
 
 # When a motion separates into those of the linear parts and of the centre of mass (Exercise 2).
@@ -292,7 +292,7 @@ GIVEN = ("u", "f_u")
 """Inputs: they do not count as state."""
 
 
-def linear(stage: Balance, rate: Callable[[Tree], Laurent | None]) -> bool:
+def linear(stage: LinearSystem, rate: Callable[[Tree], Laurent | None]) -> bool:
     """Is M constant, and β a sum of constants times entries whose rates are such sums again?
 
     ``rate``: that of an entry of g, or of what is carried along; ``None`` for an entry of ζ or w.
@@ -310,7 +310,7 @@ def linear(stage: Balance, rate: Callable[[Tree], Laurent | None]) -> bool:
     return True
 
 
-def constant(stage: Balance) -> bool:
+def constant(stage: LinearSystem) -> bool:
     """Do M and β not depend on the state?"""
     return not any(_symbols(x) for x in (*stage.load, *(y for row in stage.mass for y in row)))
 
