@@ -22,6 +22,7 @@ from typing import Any
 
 from derive.algebra.families import FAMILIES, GroupFamily, group
 from derive.algebra.groups import Group
+from derive.check.checker import verdicts
 from derive.code.languages import LANGUAGES
 from derive.code.options import ADDED, CHOICES, DEPENDENT, REPEATED
 from derive.command.showing import READY, ready_made
@@ -47,6 +48,7 @@ from derive.views.figure.drawing import Scene, svg
 from derive.views.figure.scene import scene
 from derive.views.language import LANGUAGES as SPOKEN
 from derive.views.language import language
+from derive.views.latex import anchor
 from derive.views.outline import title
 from derive.views.page.motion_page import SCRIPTS
 from derive.views.paper.findings import amendments
@@ -206,9 +208,11 @@ def stored_of(name: str, out: Path, folder: Path) -> dict[str, str]:
             heard.clear()
             getattr(played, ask)(text, lang)
             told[ask] = [*heard]
-            for news in (x for kind, x in heard if kind == "kept"):
-                # its code has that of the motion in it: it stands once, with the motion
-                played.sources[False] = news.pop("source")
+            for kind, news in heard:
+                if kind == "derived":
+                    ticked(news["road"], played.record)
+                if kind == "kept":  # its code has that of the motion in it: it stands once
+                    played.sources[False] = news.pop("source")
         made = json.dumps(told, ensure_ascii=False, separators=(",", ":")).encode()
         (out / f"{name}.{lang}.json.gz").write_bytes(gzip.compress(made, 9, mtime=0))
     heard.clear()
@@ -219,6 +223,15 @@ def stored_of(name: str, out: Path, folder: Path) -> dict[str, str]:
     titles = {x: title(record, language(x)).replace("^2", "²") for x in SPOKEN}
     group = str(record.problem.get("group") or "").replace(" x ", " × ")
     return {**titles, "group": group, "picture": picture(record)}
+
+
+def ticked(road: list[dict[str, Any]], record: Derivation) -> None:
+    """Add to stations the verdicts on their steps, as a check in the page tells them."""
+    at = {x["id"]: x for x in road}
+    labels = {x.label for x in record.steps if anchor(x.label) in at}
+    for v in verdicts(record, labels=labels):
+        if v.label in labels:
+            at[anchor(v.label)] |= {"holds": v.holds, "bound": f"{v.bound:.0e}"}
 
 
 THING = ("name", "en", "fr", "like", "group", "group_fr")

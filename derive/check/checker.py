@@ -8,7 +8,7 @@ from __future__ import annotations
 import hashlib
 import json
 import secrets
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from contextlib import suppress
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
@@ -295,8 +295,10 @@ def checker_of(problem: Mapping[str, Any], seed: int | str | None = None) -> Che
     return Checker(problem, seed)
 
 
-def verdicts(d: Derivation, seed: int | None = None) -> Iterator[Verdict]:
-    """The verdicts of :func:`check`, one after the other.
+def verdicts(
+    d: Derivation, seed: int | None = None, labels: Collection[str] | None = None
+) -> Iterator[Verdict]:
+    """The verdicts of :func:`check`, one after the other; of some steps, by their labels.
 
     The points are drawn from the seed and a hash of the whole record: whoever writes a record
     cannot aim it at them, even where a seed is agreed upon.
@@ -312,6 +314,8 @@ def verdicts(d: Derivation, seed: int | None = None) -> Iterator[Verdict]:
         strict=True,
     )
     for step, (new, old, other) in zip(d.steps, faults, strict=True):
+        if labels is not None and step.label not in labels:
+            continue
         verdict = _verdict(checker, step)
         reason = UNEXPLAINED.format(new) if new else UNUSED.format(old) if old else other
         if verdict.holds:

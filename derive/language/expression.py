@@ -11,6 +11,7 @@ from fractions import Fraction
 
 from .derivatives import DERIVATIVES, depth, has_zero_divisor, weight
 from .limits import BITS, DEGREE, DEPTH, DIGITS, EXPONENT, EXPRESSION, MAGNITUDE, NESTING, SLOPE
+from .reserved import SPELT
 from .tree import Tree, add, mul, neg, nodes, operands, plain
 from .values import approximate
 
@@ -18,6 +19,10 @@ SMALLEST, LARGEST = Fraction(1, MAGNITUDE), Fraction(MAGNITUDE)
 TOKEN = re.compile(
     r"\s*(?:([0-9]+\.?[0-9]*(?:[eE][+-]?[0-9]{1,3})?|\.[0-9]+)|([A-Za-z][A-Za-z0-9_]*)|(.))", re.S
 )
+
+LATEX = "a/b, sqrt(x), cos(x), theta, not LaTeX"
+INSTEAD = {**dict.fromkeys("\\{}$", LATEX), "²": "x^2", "·": "a*b", "√": "sqrt(x)"}
+"""Other signs that people write → what stands for them here; letters: ``SPELT``."""
 
 
 class ExpressionError(ValueError):
@@ -85,7 +90,9 @@ def _tokens(text: str) -> list[str]:
     for match in TOKEN.finditer(text.rstrip()):
         number, name, other = match.groups()
         if other is not None and other not in "+-*/^(),":
-            raise ExpressionError(f"character {other!r} is not part of an expression")
+            instead = SPELT.get(other) or INSTEAD.get(other, "")
+            told = f"; write {instead}" if instead else ""
+            raise ExpressionError(f"character {other!r} is not part of an expression{told}")
         found.append(number or name or other)
     return found
 

@@ -8,6 +8,7 @@ from functools import cache
 from typing import Any
 
 from ..algebra.groups import Group, names_by_block
+from ..language.expression import LATEX
 from ..language.limits import TABLES
 from ..language.rational import Matrix, identity, matrix
 from ..language.reserved import by_letter, suffixed
@@ -294,6 +295,7 @@ WORD = re.compile(r"[\w.*/^+()-]+")
 DECIMAL = re.compile(r"=\s*([-+]?[0-9]+),([0-9]+)\s*$")
 TEXT = re.compile(r""" "[^"]*" | '[^']*' | \#.* """, re.VERBOSE)
 ENDS = {
+    "Unescaped": f"write {LATEX}",
     "Unclosed array": "a list ends with ], and its entries are parted by commas",
     "Unclosed inline": "{ … } ends with }, on the line where it begins",
     **dict.fromkeys(

@@ -362,7 +362,8 @@ class ForceReader(TableReader):
         U = self._placed(self.scalar(slot), slot.where)
         if not any(x[0] == "at" for x in nodes(U) if isinstance(x, tuple)):
             raise ProblemError(
-                f"{slot.path}: no place of a point, as r1_x, so no force; leave it out"
+                f"{slot.path}: no place of a point, as r1_x, so no force; leave it out, or write "
+                "an angle by places, as atan2(r1_y, r1_x)"
             )
         return U
 

@@ -399,14 +399,16 @@ ROAD: dict[str, Callable[[Step, Equation], bool]] = {
 
 def stations(d: Derivation) -> tuple[Station, ...]:
     """Those that the record comes by, in the order of the road, then the equation of its own
-    body."""
+    body, and what its motion keeps."""
     found = [*filter(None, (_station(d, name, has) for name, has in ROAD.items()))]
     told = steps_of_answer(d)
     own = told[-1] if told[-1].label == f"{d.name}.{EXPANDED[-1]}" else told[0]
     if own.scope == ANY_GROUP or own in (x.step for x in found):
         return tuple(found)
     rates = [e for e in own.equations if isinstance(e.lhs, tuple) and e.lhs[0] == "entry"]
-    return (*found, Station("body", own, (*rates, own.equations[-1])[0], printed(own)))
+    kept = [s for s in d.steps if s.label == f"{d.name}.conserved"]
+    found.append(Station("body", own, (*rates, own.equations[-1])[0], printed(own)))
+    return (*found, *(Station("kept", s, s.equations[-1], printed(s)) for s in kept))
 
 
 def _station(d: Derivation, name: str, has: Callable[[Step, Equation], bool]) -> Station | None:

@@ -17,9 +17,10 @@ export class Engine {
   #turn = 0;
   #ready;
 
-  /* stored(question): the news that were made with the page, or null; onbegin: the worker begins, when it is first needed */
-  constructor({ seconds = 60, onstate, onbegin, stored }) {
-    Object.assign(this, { seconds, onstate, onbegin, stored });
+  /* stored(question): the news that were made with the page, or null; onbegin: the worker begins, when it is first needed;
+   * onlate(question): does it go on when nothing has been heard for so long? */
+  constructor({ seconds = 60, onstate, onbegin, stored, onlate }) {
+    Object.assign(this, { seconds, onstate, onbegin, stored, onlate });
   }
 
   #begin() {
@@ -70,7 +71,7 @@ export class Engine {
     });
     asked.wind = () => {
       clearTimeout(asked.clock);
-      asked.clock = setTimeout(() => this.stop("late"), 1000 * this.seconds);
+      asked.clock = setTimeout(() => (this.onlate?.(question) ? asked.wind() : this.stop("late")), 1000 * this.seconds);
     };
     asked.heard = ({ kind, news }) => {
       if (kind === "end") return asked.end("end");

@@ -1,6 +1,6 @@
 /* A problem as an address: #so3 for a ready-made one, #p=… for a text, compressed, nothing for the top: it moves;
  * #so3/linear.kernel for a step of its walk; ?lang=fr for the language. Behind it what is seen:
- * &tab=find, or &t=1.5&until=40&second=zeta_1:0.001&eye=0.5,0.3,1&set=m:2,g:0, or &projected, a step on the whole screen,
+ * &tab=find, or &t=1.5&until=40&second=zeta_1:0.001&eye=0.5,0.3,1&within&set=m:2,g:0, or &projected, a step on the whole screen,
  * and &projected=answer, the last of the screens. */
 const LARGEST = 400_000;
 
@@ -74,14 +74,14 @@ export const tabbed = (step) => (step ? "walk" : "see");
 const TABS = ["walk", "see", "find", "take"];
 const short = (v) => String(Number(v.toPrecision(7)));
 
-/* what is seen: { tab, projected: "" or "answer", t, until, second: [name, ε], eye: [azimuth, elevation, zoom], set: { name:
- * number } }, what is there of it */
-function written({ tab, projected, t, until, second, eye, set = {} }, home) {
+/* what is seen: { tab, projected: "" or "answer", t, until, second: [name, ε], eye: [azimuth, elevation, zoom], within: true
+ * of the body, set: { name: number } }, what is there of it */
+function written({ tab, projected, t, until, second, eye, within, set = {} }, home) {
   const numbers = Object.entries(set).map(([name, v]) => `${name}:${v}`);
   return [
     tab && tab !== home && `&tab=${tab}`, projected !== undefined && `&projected${projected && `=${projected}`}`,
     t !== undefined && `&t=${short(t)}`, until && `&until=${short(until)}`, second && `&second=${second[0]}:${short(second[1])}`,
-    eye && `&eye=${eye.map(short)}`, numbers.length && `&set=${numbers}`,
+    eye && `&eye=${eye.map(short)}`, within && "&within", numbers.length && `&set=${numbers}`,
   ].filter(Boolean).join("");
 }
 
@@ -92,6 +92,7 @@ function read(words) {
   const pairs = (word = "") => word.split(",").map((x) => x.split(":")).filter(([name, v]) => /^\w+$/.test(name) && number(v));
   const numbers = pairs(told.set), [second] = pairs(told.second);
   if (TABS.includes(told.tab)) seen.tab = told.tab;
+  if ("within" in told) seen.within = true;
   if ("projected" in told) seen.projected = told.projected === "answer" ? "answer" : "";
   for (const name of ["t", "until"]) if (number(told[name])) seen[name] = Number(told[name]);
   if (second) seen.second = [second[0], Number(second[1])];

@@ -35,7 +35,10 @@ const ready = (name) => data.problems.find((x) => x.name === name);
 const equations = new Equations(the("walk"), css, document.querySelector(".read .bar"), (id) => go(id), (meaning) => say(meaning));
 const places = new Places(equations);
 const steps = new Steps(the("steps"), (id, again) => go(id, again));
-const engine = new Engine({ seconds: SECONDS, onstate, onbegin: () => say(words.loading), stored });
+const engine = new Engine({
+  seconds: SECONDS, onstate, onbegin: () => say(words.loading), stored,
+  onlate: ({ ask }) => ask !== "kept" && confirm(words.slow(told, engine.seconds)),
+});
 const motion = new Motion(the("see"), { text: () => text, engine, say, ended, lit: (number) => arrows.lit(number) });
 const arrows = new Arrows(the("answer").lastElementChild, (number) => motion.light(number), (id) => go(id));
 const text = editor(the("editor"), data.schema, words, edited);
@@ -46,7 +49,10 @@ const face = () => Object.keys(faces).find((x) => !the(x).hidden);
 const projector = new Projector(the("projector"), {
   equations, words: () => words,
   answer: (place) => { place.innerHTML = arrows.place.innerHTML; },
-  passed: (id) => places.step(lang, chosen() ?? places.word, id, true, { projected: id ? "" : "answer" }),
+  passed: (id) => {
+    places.step(lang, chosen() ?? places.word, id, true, { projected: id ? "" : "answer" });
+    road.here(id || steps.order.at(-1), steps.order, false);
+  },
   beside: (is) => {
     is &&= !still(text.text); // which has no body
     document.body.classList.toggle("beside", is);
@@ -59,7 +65,12 @@ const projector = new Projector(the("projector"), {
     tabs.show("see");
   },
 });
-const road = new Road(the("road").firstElementChild, (id) => (id ? go(id) : tabs.show("take")));
+const road = new Road(the("road").firstElementChild, (id) => {
+  if (id && projector.shown) return projector.enter(id);
+  projector.leave();
+  if (id) go(id);
+  else tabs.show("take");
+});
 const take = new Take(the("take"), data, {
   ask: files, reasons, file: () => ({ name: problem_name(), text: text.text, title: equations.title || problem_name(), ready: chosen() }),
 });

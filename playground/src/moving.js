@@ -26,13 +26,13 @@ const said = (row) => row.querySelector("[role=slider]").getAttribute("aria-valu
 let first = new Map();
 
 /* what is seen: the time, until when it goes, the second motion, the camera where there is one, the numbers that have been set */
-function seen({ time, until, second, scene: { eye, page } }) {
+function seen({ time, until, second, scene: { eye, within, page } }) {
   const set = rows().map((x) => [x.dataset.name, said(x)]).filter(([name, v]) => v !== first.get(name));
-  return { t: time, ...(until > page.t && { until }), ...(second?.told && { second: second.told }), ...(eye && { eye: [eye.azimuth, eye.elevation, eye.zoom] }), set: Object.fromEntries(set) };
+  return { t: time, ...(until > page.t && { until }), ...(second?.told && { second: second.told }), ...(eye && { eye: [eye.azimuth, eye.elevation, eye.zoom] }), ...(within && { within }), set: Object.fromEntries(set) };
 }
 
 /* and is seen again, at rest: numbers are put in as the reader types them */
-function restore({ t, until, second, eye, set = {} }, motion) {
+function restore({ t, until, second, eye, within, set = {} }, motion) {
   for (const row of rows().filter((x) => Object.hasOwn(set, x.dataset.name))) {
     const box = row.querySelector("input");
     box.value = set[row.dataset.name];
@@ -42,6 +42,7 @@ function restore({ t, until, second, eye, set = {} }, motion) {
     const [azimuth, elevation, zoom] = eye;
     Object.assign(motion.scene.eye, { azimuth, elevation: Math.max(-1.55, Math.min(Math.PI / 2, elevation)), zoom: Math.max(0.1, Math.min(20, zoom)) });
   }
+  if (within) document.querySelector(".controls > .within input")?.click();
   if (second && motion.second) motion.second.told = second;
   if (Math.max(until ?? 0, t ?? 0) > motion.until) motion.until = Math.max(until ?? 0, t ?? 0);
   if (t !== undefined) motion.seek(t);

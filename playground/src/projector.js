@@ -46,6 +46,7 @@ export class Projector {
   }
 
   leave() {
+    if (!this.shown) return;
     this.place.hidden = true;
     document.body.classList.remove("projecting");
     dark(false);

@@ -18,13 +18,15 @@ export class Road {
     this.words = words;
     const code = { name: "code", id: "", shown: `<code>${name}_rhs(t, x, k, …)</code>`, paper: words.codein };
     const all = stations.some((x) => x.name === "body") ? [...stations, code] : stations;
-    this.#buttons = all.map(({ name: place, id, shown, paper }, i) => {
-      const button = make("button", { type: "button", "data-to": id, click: () => this.go(id) },
-        make("b", {}, `${i + 1} ${words.road[place]}`), make("span", { class: "formula" }), make("small", {}, paper || id));
+    let count = 0;
+    this.#buttons = all.map(({ name: place, id, shown, paper }) => {
+      const told = place === "kept" ? words.road.kept : `${++count} ${words.road[place]}`;
+      const button = make("button", { type: "button", class: place, "data-to": id, click: () => this.go(id) }, make("b", {}, told), make("span", { class: "formula" }), make("small", {}, paper || id));
       button.children[1].innerHTML = shown;
       return button;
     });
     this.place.replaceChildren(...this.#buttons.map((x) => make("li", {}, x)));
+    for (const x of stations) if (x.bound) this.tick(x); // those of what was made with the page
   }
 
   /* the step that is read: the stations that are behind it, of all the steps in their order; or is it the code? */

@@ -8,6 +8,8 @@ import { entry, put, raw, tables } from "./source.js";
 import { listed, names, numeral, shown } from "./values.js";
 
 const FORCES = ["potential", "input", "damping"], SAID = ["", "lagrangian", "body", "solid", "point", ...FORCES, "parameters", "initial"];
+/* a cone that is turned over and lifted by its height stands on its apex */
+const OVER = "[[1,0,0],[0,-1,0],[0,0,-1]]";
 const WORDLESS = ["name", "kind", "solid", "on", "between", "block", "frame", "direction"];
 
 export class Sentence extends Form {
@@ -109,7 +111,9 @@ export class Sentence extends Form {
       if (x.name === "point" && x.many) return [[phrases.point, ...this.keys(k)]];
       if (x.name === "lagrangian" && entry(x, "L")) return [[phrases.lagrangian, " ", ...this.value(k, "L", "L")]];
       if (!["body", "solid"].includes(x.name)) return [];
-      if (kind in phrases.solid) return [[this.word(words.solid, phrases.solid, kind, (y) => this.edit(this.resized(k, said, y)), `${k}.${said}`), ...this.keys(k)]];
+      const upright = kind === "cone" && raw(this.text, x, "rotation")?.replace(/\s/g, "") === OVER && listed(raw(this.text, x, "shift"))?.[2] === shown(raw(this.text, x, "height"));
+      const keys = upright ? [...this.keys(k, ["rotation", "shift"]), phrases.apex] : this.keys(k);
+      if (kind in phrases.solid) return [[this.word(words.solid, phrases.solid, kind, (y) => this.edit(this.resized(k, said, y)), `${k}.${said}`), ...keys]];
       return [[phrases.moments]];
     });
     if (found.length > 1) return [phrases.made, ...joined(found, phrases.and)];

@@ -11,7 +11,7 @@ export class Take {
   /* ask: (words of a command, what else is in a zip) → { files, start, zip } or { refused }; reasons: (options of an emission) → why others cannot be added, or null while
    * that cannot be known; file: () → { name, text, title, ready } */
   constructor(place, data, { ask, reasons, file }) {
-    Object.assign(this, { place, ask, reasons, file });
+    Object.assign(this, { place, ask, reasons, file, made: data.emission.slice(10, -10) });
     this.options = new Options(data, () => this.told());
     this.code = new Code();
   }
@@ -34,6 +34,7 @@ export class Take {
       this.row(() => "walk FILE --format json --out out/NAME.json", this.saves(words.record, ".json")),
       make("div", { class: "row" }, this.own(() => `${words.notebook} .ipynb`, ".ipynb", (x) => notebook(x.name, x.text, x.title)), make("span", { class: "told" }, words.runs)),
     );
+    this.place.querySelector("details").addEventListener("toggle", () => this.weigh());
     this.told();
   }
 
@@ -104,7 +105,7 @@ export class Take {
   /* options that would be refused beside those that are chosen now cannot be chosen; asked again when the worker is free */
   async weigh() {
     const { text } = this.file(), { command } = this.options, now = `${command} ${text}`;
-    if (this.weighed === now) return;
+    if (this.weighed === now || command === this.made && !this.place.querySelector("details").open) return; // Python is not asked before there is a choice
     if (this.text !== text) this.options.refuse({});
     Object.assign(this, { text, weighed: now });
     const found = await this.reasons(command);

@@ -3,7 +3,7 @@ export const WORDS = {
   en: {
     home: "derive", what: "Describe a body: its equations of motion, derived, checked, moving, and as code.",
     answer: "Equations of motion", help: "Help", roadof: "The road to the equations", codein: "C, Python, JavaScript, …",
-    road: { lagrangian: "Lagrangian", group: "On the group", cartan: "Cartan form", exterior: "Its derivative", kernel: "Kernel", body: "This body", code: "Code" },
+    road: { lagrangian: "Lagrangian", group: "On the group", cartan: "Cartan form", exterior: "Its derivative", kernel: "Kernel", body: "This body", kept: "What is kept", code: "Code" },
     help1: "Choose a thing in the gallery, a problem of the list, or write your own at the left: as text, or as a form.",
     help2: "Motion: the body moves by these equations; drag it, and set its numbers above it. Point at a letter or a term: it is the arrow of its colour.",
     help3: "Equations: the whole road to them, step by step; Check tries each step by another road. Projector (P): a step a screen, by the arrow keys or a clicker.",
@@ -27,6 +27,7 @@ export const WORDS = {
     loading: "Loading Python …", deriving: "Deriving …", checking: "Checking …", emitting: "Writing …", keeping: "What is kept is sought …",
     derived: (n, s) => `${n}\u00a0steps, ${s}\u00a0s`, checked: (n, bound) => `${n} steps hold; the probability that a false step passes is below ${bound}`,
     failed: (n) => `${n} steps FAIL`, stopped: "Stopped.", late: (s) => `Stopped after ${s} s without an answer: too large for this page. The command at home has no such limit.`,
+    slow: (told, s) => `${told}\n\nNothing more for ${s} s: this machine is slow, or the problem is large. Go on?`,
     notkept: (s) => `What is kept was not found in ${s} s: the motion goes on.`,
     line: (n) => `line ${n}`, damaged: "This link is damaged: here is the example instead.",
     plain: "This browser has no WebAssembly, which runs the derivation. At home:",
@@ -65,7 +66,7 @@ export const WORDS = {
   fr: {
     home: "derive", what: "Décrivez un corps : ses équations du mouvement, déduites, vérifiées, en mouvement, en code.",
     answer: "Équations du mouvement", help: "Aide", roadof: "Le chemin vers les équations", codein: "C, Python, JavaScript, …",
-    road: { lagrangian: "Lagrangien", group: "Sur le groupe", cartan: "Forme de Cartan", exterior: "Sa dérivée", kernel: "Noyau", body: "Ce corps", code: "Code" },
+    road: { lagrangian: "Lagrangien", group: "Sur le groupe", cartan: "Forme de Cartan", exterior: "Sa dérivée", kernel: "Noyau", body: "Ce corps", kept: "Ce qui est conservé", code: "Code" },
     help1: "Choisissez une chose dans la galerie, un problème de la liste, ou écrivez le vôtre à gauche : en texte, ou par un formulaire.",
     help2: "Mouvement : le corps se meut selon ces équations ; faites-le tourner, réglez ses nombres au-dessus. Montrez une lettre ou un terme : c’est la flèche de sa couleur.",
     help3: "Équations : tout le chemin qui y mène, étape par étape ; Vérifier les examine par une autre voie. Projection (P) : une étape par écran, aux flèches ou à la télécommande.",
@@ -89,6 +90,7 @@ export const WORDS = {
     loading: "Chargement de Python …", deriving: "Calcul …", checking: "Vérification …", emitting: "Écriture …", keeping: "Recherche de ce qui est conservé …",
     derived: (n, s) => `${n}\u00a0étapes, ${String(s).replace(".", ",")}\u00a0s`, checked: (n, bound) => `${n} étapes sont exactes ; la probabilité qu’une étape fausse passe est inférieure à ${bound}`,
     failed: (n) => `${n} étapes sont FAUSSES`, stopped: "Arrêté.", late: (s) => `Arrêté après ${s} s sans réponse : trop grand pour cette page. La commande, chez vous, n’a pas cette limite.`,
+    slow: (told, s) => `${told}\n\nRien de plus depuis ${s} s : cette machine est lente, ou le problème est grand. Continuer ?`,
     notkept: (s) => `Ce qui est conservé n’a pas été trouvé en ${s} s : le mouvement continue.`,
     line: (n) => `ligne ${n}`, damaged: "Ce lien est abîmé : voici l’exemple à la place.",
     plain: "Ce navigateur n’a pas WebAssembly, qui fait le calcul. Chez vous :",

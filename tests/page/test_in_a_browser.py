@@ -12,7 +12,7 @@ from derive.command.showing import ready_made
 from derive.problem.toml import problem_of
 from derive.programs import moving_program
 from tests.page.test_motion_page import PAGELESS
-from tests.support.motion_pages import BAD, STARTS, page
+from tests.support.motion_pages import BAD, STARTS, page, set_to
 from tests.support.walks import derived
 
 INK = """() => [...document.querySelectorAll("canvas")].map((c) => {
@@ -32,24 +32,13 @@ def seek(shown, t):
     shown.wait_for_timeout(100)
 
 
-def typed(shown, name, text):
-    """Type a number, and leave its box."""
-    row = shown.locator(f'[data-name="{name}"]')
-    row.evaluate("(e) => { (e.closest('details') ?? {}).open = true; }")
-    if row.locator("[role=slider]").is_visible():
-        row.locator("[role=slider]").press("Enter")
-    row.locator("input[inputmode]").fill(text)
-    row.locator("input[inputmode]").press("Tab")
-    shown.wait_for_timeout(100)
-    return row
-
-
 # ---------------------------------------------------------------- what is drawn
 
 
 DRAWN = """(n) => {
     const { prototype } = CanvasRenderingContext2D, stage = document.querySelectorAll("canvas")[n];
-    const kept = globalThis.drawn = { dots: [], lines: [], strokes: [] };
+    const none = () => ({ dots: [], lines: [], strokes: [], letters: {} });
+    const kept = globalThis.drawn = none();
     const heard = (name, does) => {
         const own = prototype[name];
         prototype[name] = function (...a) {
@@ -57,8 +46,9 @@ DRAWN = """(n) => {
             own.call(this, ...a);
         };
     };
-    heard("clearRect", () => Object.assign(kept, { dots: [], lines: [], strokes: [] }));
+    heard("clearRect", () => Object.assign(kept, none()));
     heard("arc", (x, y) => kept.dots.push([x, y]));
+    heard("fillText", (text, ...at) => { kept.letters[text] = at; });
     heard("beginPath", () => { kept.path = []; });
     heard("moveTo", (x, y) => (kept.begins ??= []).push([x, y]));
     heard("stroke", function () { kept.strokes.push([this.strokeStyle, kept.path]); });
@@ -67,7 +57,7 @@ DRAWN = """(n) => {
     }
 }"""
 """Keeps the places, in pixels, of what the last picture on the n-th canvas has: its dots, ends of
-its lines, and strokes, colour and line."""
+its lines, strokes, colour and line, and letters."""
 
 
 @pytest.mark.parametrize(
@@ -110,6 +100,35 @@ def test_the_momentum_stays_in_space_and_the_velocity_does_not(opened):
     assert shown.locator(".legend span").all_inner_texts() == told
 
 
+def test_the_ellipsoid_rolls_and_the_momentum_is_dragged(opened):
+    """In space ℓ stays, and the end of the velocity is always as far along it; dragged on the
+    ellipsoid it begins a motion of the same energy."""
+    moments, start = np.array([1, 1.6, 2.2]), np.array([0.6, 3.0, 1.0])
+    given = {f"zeta_{k + 1}": float(v) for k, v in enumerate(start)}
+    shown = opened(derived("euler_top").motion_page(5.0, start=given))
+    shown.wait_for_timeout(100)
+    shown.evaluate(DRAWN, 1)
+    seek(shown, 1.0)
+    assert "ℓ" not in shown.evaluate("drawn.letters")
+    shown.check("figure .within input")
+    seen = []
+    for t in (1.0, 2.0, 3.5):
+        seek(shown, t)
+        seen.append(shown.evaluate("[drawn.letters['ℓ'], drawn.letters['ζ₃'], drawn.dots[0]]"))
+    seen = np.array(seen)
+    assert np.abs(seen[:, 0] - seen[0, 0]).max() < 0.1
+    assert np.abs(seen[:, 1:] - seen[0, 1:]).max(0).min() > 2
+    box, (x, y) = shown.locator(".side").bounding_box(), seen[-1, 2]
+    shown.mouse.move(box["x"] + x, box["y"] + y)
+    shown.mouse.down()
+    shown.mouse.move(box["x"] + x + 12, box["y"] + y - 9)
+    shown.mouse.up()
+    now = np.array(shown.evaluate(STATE)[-3:])
+    assert shown.evaluate(f"{MOTION}.time") == 0
+    assert np.abs(now - start).max() > 0.05
+    assert np.sum(moments * now**2) == pytest.approx(np.sum(moments * start**2), rel=1e-12)
+
+
 def test_seen_from_the_body_its_points_stay(opened):
     """And in space they do not; what deforms has no such view."""
     masses = [{"mass": 1, "at": [0.3, -0.7, 0.2]}, {"mass": 2, "at": [0.4, 0.2, -0.5]}]
@@ -126,19 +145,9 @@ def test_seen_from_the_body_its_points_stay(opened):
 
     assert points(0.5).shape == (4, 2)  # the masses, and the head of the trail
     assert np.abs(points(0.5) - points(2.5)).max() > 5
-    shown.check(".within input")
+    shown.check(".controls .within input")
     assert np.abs(points(0.5) - points(2.5)).max() < 1e-6
     assert opened(derived("sl3").motion_page(1.0)).locator(".within").count() == 0
-
-
-PARTED = """() => {
-    const { prototype } = CanvasRenderingContext2D, told = globalThis.told = [];
-    const { fillText } = prototype;
-    prototype.fillText = function (text, ...a) {
-        told.push(text);
-        fillText.call(this, text, ...a);
-    };
-}"""
 
 
 def test_a_reading_that_is_no_number_is_a_gap_and_told(opened):
@@ -149,7 +158,6 @@ def test_a_reading_that_is_no_number_is_a_gap_and_told(opened):
     d = derive.derive(problem_of(swing | {"output": [text]}))
     shown = opened(d.motion_page(3.0, start={"zeta_1": 3.0}))
     shown.wait_for_timeout(100)
-    shown.evaluate(PARTED)
     shown.evaluate(DRAWN, shown.locator("canvas").count() - 1)
     seek(shown, 2.9)
     curve = max((x for _, x in shown.evaluate("drawn.strokes")), key=len)
@@ -157,7 +165,10 @@ def test_a_reading_that_is_no_number_is_a_gap_and_told(opened):
     assert (there[1:] != there[:-1]).sum() >= 4
     begins = [round(y, 6) for _, y in shown.evaluate("drawn.begins")]
     assert {round(curve[k + 1][1], 6) for k in np.flatnonzero(~there[:-1] & there[1:])} <= {*begins}
-    assert any(re.fullmatch(r"\d+ NaN, t = 0\.\d+ …", x) for x in shown.evaluate("told"))
+    assert any(
+        re.fullmatch(r"\d+ NaN, t = 0\.\d+ …", x)
+        for x in shown.evaluate("Object.keys(drawn.letters)")
+    )
 
 
 def test_a_curve_ends_where_its_time_does(opened):
@@ -244,7 +255,7 @@ def test_it_moves_and_keeps_what_is_kept(name, opened):
 def test_the_trail_follows_the_speed_that_is_set(opened):
     """The tip of an axis that turns fast about another goes a small angle between two points."""
     shown = opened(derived("top").motion_page(10.0, start={"zeta_1": 0.5}))
-    typed(shown, "zeta_1", "50")
+    set_to(shown, "zeta_1", "50")
     seek(shown, 1.0)
     shown.get_by_role("button", name="play").click()
     shown.wait_for_function(f"{MOTION}.time > 1.2")
@@ -278,7 +289,7 @@ def test_a_collision_is_told(opened):
 def test_a_wrong_number_is_told_where_it_is_and_keys_move(width, opened):
     """tests/playground/test_moving.py has the sliders."""
     shown = opened(page("top"), width)
-    row = typed(shown, "R", "0")
+    row = set_to(shown, "R", "0")
     told = shown.get_by_role("status")
     assert told.inner_text() == "No body has these numbers: R = 0."
     assert row.get_by_role("status").count() == 1
@@ -286,7 +297,7 @@ def test_a_wrong_number_is_told_where_it_is_and_keys_move(width, opened):
     assert 0 <= box["y"] <= 844 - box["height"]
     energy = shown.locator('tr[data-name="energy"] td').first
     assert energy.inner_text() == ""
-    typed(shown, "R", "0.03")
+    set_to(shown, "R", "0.03")
     assert told.inner_text() == ""
     assert energy.inner_text() != ""
     shown.evaluate("document.activeElement.blur()")
@@ -320,14 +331,14 @@ def test_on_a_phone_by_night_in_french(scheme, opened):
     # a number has a comma or a point, and nothing else
     g = f"{MOTION}.given.p[3]"
     for text, value in (("1,5", 1.5), ("2.25", 2.25), ("−3e-1", -0.3)):
-        typed(shown, "g", text)
+        set_to(shown, "g", text)
         assert shown.evaluate(g) == value
     for text in ("1,234.5", "five", "", "1e999"):
-        box = typed(shown, "g", text).locator("input[inputmode]")
+        box = set_to(shown, "g", text).locator("input[inputmode]")
         assert box.get_attribute("aria-invalid") == "true"
         assert shown.get_by_role("status").inner_text() == "Ce n’est pas un nombre."
         assert shown.evaluate(g) == -0.3
-    typed(shown, "g", "9,81")
+    set_to(shown, "g", "9,81")
     assert box.get_attribute("aria-invalid") == "false"
 
 
@@ -343,12 +354,12 @@ def test_a_component_along_no_direction_is_not_shown(opened):
     along = row.replace("name=", "name^=")
     (only,) = shown.evaluate(row)
     assert "kg m²/s" in only
-    typed(shown, "g_3", "0")
+    set_to(shown, "g_3", "0")
     assert shown.evaluate(row) == []
     assert [x.split()[:3] for x in shown.evaluate(along)] == [
         ["angular", "momentum", str(k)] for k in (1, 2, 3)
     ]
-    typed(shown, "g_1", "1")
+    set_to(shown, "g_1", "1")
     assert len(shown.evaluate(row)) == len(shown.evaluate(along)) == 1
 
 
@@ -419,7 +430,7 @@ def test_inputs_follow_their_signals_until_they_are_set(opened):
         scene = f"{MOTION}.scene"
         read = f"{scene}.page.module.outputs({t}, {STATE}, {MOTION}.run.k, {scene}.u)[0]"
         assert abs(shown.evaluate(read) - 4 * np.cos(2 * t)) < 1e-12
-    typed(shown, "F_1", "5")
+    set_to(shown, "F_1", "5")
     seek(shown, 2.5)
     assert np.abs(np.array(shown.evaluate(STATE)[3:]) - [12.5, *ways[2.5][1:]]).max() < 1e-7
     held = opened(d.motion_page(4.0, start={"F_1": 5.0}))

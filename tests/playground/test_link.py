@@ -9,8 +9,9 @@ import pytest
 from matplotlib.image import imread
 
 from benchmarks.playground import packed
-from tests.playground.test_moving import MOTION, STATE, adjuster, until
+from tests.playground.test_moving import MOTION, STATE, until
 from tests.support import in_node
+from tests.support.motion_pages import set_to
 from tests.support.played import text_of
 from tests.support.playground_site import another, chosen, moving, opened, visit, walked
 
@@ -21,8 +22,14 @@ SEEN = [
     {"tab": "see"},
     {"projected": ""},
     {"projected": "answer"},
-    {"tab": "see", "t": 30, "until": 80, "second": ["zeta_1", 1e-3]},
-    {"tab": "see", "t": 1.5, "eye": [-0.25, 1.5, 2], "set": {"zeta_1": "-3", "m": "1e-7"}},
+    {"tab": "see", "t": 30, "until": 80, "second": ["zeta_1", 1e-3], "within": True},
+    {
+        "tab": "see",
+        "t": 1.5,
+        "eye": [-0.25, 1.5, 2],
+        "within": True,
+        "set": {"zeta_1": "-3", "m": "1e-7"},
+    },
 ]
 
 
@@ -62,10 +69,7 @@ def test_a_copied_link_shows_another_reader_the_same(fresh, site):
     fresh.context.grant_permissions(["clipboard-read", "clipboard-write"])
     visit(fresh, f"{site}?lang=fr#top", "top")
     frame = moving(fresh)
-    row = adjuster(frame, "zeta_3")
-    row.locator("[role=slider]").press("Enter")
-    row.locator("input").fill("123,5")
-    row.locator("input").press("Enter")
+    set_to(frame, "zeta_3", "123,5", "Enter")
     frame.locator("canvas").first.press("ArrowUp")
     frame.locator("canvas").first.press("+")
     state = frame.evaluate(STATE, 0.625)

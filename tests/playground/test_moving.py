@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from tests.support.library import module_of
+from tests.support.motion_pages import adjuster, set_to
 from tests.support.played import text_of
 from tests.support.playground_site import (
     asked,
@@ -59,24 +60,6 @@ def shown_at(frame, t):
     frame.evaluate(STATE, t)
     frame.wait_for_function(f"() => {MOTION}.time === {t}")
     frame.page.wait_for_timeout(200)
-
-
-def adjuster(frame, name):
-    """The row of a number, in an open group."""
-    row = frame.locator(f'[data-name="{name}"].adjuster')
-    row.evaluate(
-        "(e) => { for (let x = e; x; x = x.parentElement) if ('open' in x) x.open = true; }"
-    )
-    return row
-
-
-def set_to(frame, name, value, key="Tab"):
-    """Type a number."""
-    row = adjuster(frame, name)
-    row.locator("[role=slider]").press("Enter")
-    box = row.locator("input[inputmode]")
-    box.fill(value)
-    box.press(key)
 
 
 def slid(frame, **values):

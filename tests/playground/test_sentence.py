@@ -14,8 +14,7 @@ SAID = """() => {
 }"""
 TOP = (
     "A cone of density 800.0 kg/m³, of radius 0.03 m, of height 0.05 m, "
-    "turned by [[1, 0, 0], [0, -1, 0], [0, 0, -1]], shifted by (0, 0, 0.05 m) "
-    "turns about a fixed point, under its weight (g = (0, 0, -g)), "
+    "that stands on its apex, turns about a fixed point, under its weight (g = (0, 0, -g)), "
     "starting with zeta_3 = 100 and exp = (0.3, 0, 0), where g = 9.81 m/s²."
 )
 

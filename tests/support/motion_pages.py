@@ -57,3 +57,24 @@ def body_of(d, state=None):
     group = d.problem.group if d.problem.advected is None else None
     names = program(d.problem, d.record).state if state is None else state
     return moving_body(d.record.problem, group, names)
+
+
+def adjuster(frame, name):
+    """The row of a number, in an open group."""
+    row = frame.locator(f'[data-name="{name}"].adjuster')
+    row.evaluate(
+        "(e) => { for (let x = e; x; x = x.parentElement) if ('open' in x) x.open = true; }"
+    )
+    return row
+
+
+def set_to(frame, name, value, key="Tab"):
+    """Type a number, and leave its box."""
+    row = adjuster(frame, name)
+    if row.locator("[role=slider]").is_visible():
+        row.locator("[role=slider]").press("Enter")
+    box = row.locator("input[inputmode]")
+    box.fill(value)
+    box.press(key)
+    row.page.wait_for_timeout(100)
+    return row

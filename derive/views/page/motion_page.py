@@ -71,21 +71,8 @@ MOST, CURVES = 24, 12
 """So many numbers of the velocity have sliders; so many of the state are drawn where no body is."""
 
 SCRIPTS = (
-    "vectors",
-    "text",
-    "run",
-    "colours",
-    "shapes",
-    "body",
-    "canvas",
-    "arrows",
-    "stage",
-    "chart",
-    "driven",
-    "vorticity",
-    "second",
-    "polhode",
-    "mount",
+    *("vectors", "text", "run", "colours", "shapes", "body", "canvas", "arrows", "stage", "chart"),
+    *("driven", "vorticity", "second", "polhode", "rolling", "mount"),
 )
 """The files of the drawing, in templates/html/motion."""
 
@@ -243,6 +230,8 @@ def pieces(page: Data) -> dict[str, str]:
     if body["stretches"]:
         names.add("flattened")
     side = {"side": "polhode" if body["polhode"] else "velocities"} | readings
+    if body["turns"] and not readings:
+        names.add("rolling")
     return {"stage": "solid_stage"} | side | turned | {x: x for x in sorted(names)}
 
 
@@ -252,7 +241,7 @@ def _unsaid(made: Program, body: Mapping[str, Any], element: bool, lost: bool) -
     unsaid |= {x for x in ("defect", "multiplier") if x not in made.functions}
     unsaid |= set() if lost or "multiplier" in made.functions else {"others"}
     there = {"flat": body["stretches"], "inputs": made.inputs, "element": element}
-    there["coefficients"] = "waves" in body
+    there |= {"coefficients": "waves" in body, "rolls": body["turns"] and not made.outputs}
     there |= {"turned": element, "within": body["parts"] and not body["parts"][0]["deforms"]}
     unsaid |= {x for x, has in there.items() if not has}
     unsaid |= {"velocities", "polhode"} if made.outputs else {"readings"}

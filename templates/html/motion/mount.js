@@ -90,7 +90,7 @@ function mount(element, page, pieces) {
     return found;
   }
 
-  const stage = pieces.stage(scene, pieces), home = make("div", { class: "stage" }, stage.element, stage.legend ?? ""), side = pieces.side?.(scene), graph = pieces.graph?.(scene, page.in_time, page.apart), views = [stage, side, graph].filter(Boolean);
+  const stage = pieces.stage(scene, pieces), home = make("div", { class: "stage" }, stage.element, stage.legend ?? ""), side = pieces.side?.(scene, pieces), graph = pieces.graph?.(scene, page.in_time, page.apart), views = [stage, side, graph].filter(Boolean);
 
   /* ---- the frame */
 
@@ -362,7 +362,7 @@ function mount(element, page, pieces) {
   }
 
   if (side) side.element.className = side.shape;
-  const beside = side ? [make("figure", {}, side.element, make("figcaption", {}, side.element.getAttribute(aria)))] : [];
+  const beside = side ? [make("figure", {}, side.element, make("figcaption", {}, side.element.getAttribute(aria)), side.more ?? "")] : [];
   const coarse = (v) => 10 ** floor(log10(abs(v) || 1)) / 100;
   const of_start = page.adjusted.map((s) => adjuster(page.names[s], ...about(page.names[s]), x0[s], coarse(x0[s] || fast), (v) => (x0[s] = v)));
   const still_ones = of_start.filter((_, i) => !page.x[page.adjusted[i]]);
