@@ -1,8 +1,11 @@
 """The answer of a record, with what its letters are; what the views say of a system in words, of a
 fluid, and of both trivialisations."""
 
+import operator
 import re
+from collections import defaultdict
 from fractions import Fraction
+from functools import reduce
 from unicodedata import normalize
 
 import numpy as np
@@ -19,6 +22,7 @@ from derive.problem.toml import problem_of
 from derive.views.answer import (
     answer_mathml,
     answer_text,
+    as_written,
     definitions,
     equations_of_motion,
     rounded,
@@ -29,7 +33,7 @@ from derive.views.answer import told as stations
 from derive.views.html import html
 from derive.views.language import ENGLISH, LANGUAGES, language
 from derive.views.latex import latex
-from derive.views.layout import Reading
+from derive.views.layout import Reading, as_read
 from derive.views.outline import assumed, moving, system
 from derive.views.printing.signs import tex_text
 from derive.views.printing.typeset import display_width
@@ -56,6 +60,61 @@ def test_it_is_of_the_record_and_as_wide_as_is_asked_for(name):
         assert steps_of_answer(record)[0].label in shown
 
 
+@pytest.mark.parametrize("name", ready_made())
+def test_what_is_gathered_has_the_same_value(name):
+    """Each right side, at random numbers for what stands in it; A turns."""
+    d = as_read(walk_of(name))
+    motion = equations_of_motion(d)
+    for e in (*motion, *definitions(d, motion)):
+        drawn = defaultdict(np.random.default_rng(5).normal)
+        before, after = (evaluated(x.rhs, drawn) for x in (e, as_written(d, e)))
+        assert np.allclose(before, after, rtol=1e-9, atol=1e-9), show(e.lhs)
+
+
+def evaluated(t, drawn):
+    """The numbers of a tree, those of its letters and of what is no arithmetic ``drawn``."""
+
+    def entry(x, *at):
+        match x:
+            case "A" | ("at", "A", _) if max(at) < 4:
+                return turn[at[0] - 1, at[1] - 1]
+            case ("mul", ("T", block), v):
+                return sum(entry(block, i, *at) * entry(v, i) for i in (1, 2, 3))
+            case ("mul", -1, v):
+                return -entry(v, *at)
+            case ("add", *vectors):
+                return sum(entry(v, *at) for v in vectors)
+            case ("matrix", *rows):
+                return evaluated(rows[at[0] - 1][1], drawn)
+        return drawn[x, at]
+
+    c, s = np.cos(0.7), np.sin(0.7)
+    turn = np.array([[c, -s, 0], [s, c, 0], [0, 0, 1]])
+    if isinstance(t, (int, Fraction)):
+        return float(t)
+    op, *parts = t if isinstance(t, tuple) else ("", t)
+    if op == "pow":
+        return evaluated(parts[0], drawn) ** parts[1]
+    if op == "entry":
+        return entry(*parts)
+    if op == "norm2" and len(parts) == 1:
+        return sum(entry(parts[0], i) ** 2 for i in (1, 2, 3))
+    if op == "fun":
+        return np.sin(np.abs(evaluated(parts[1], drawn)) ** (0.5 if parts[0] == "sqrt" else 1))
+    values = [evaluated(x, drawn) for x in parts] if op in ARITHMETIC else []
+    return ARITHMETIC[op](*values) if values else drawn[t]
+
+
+ARITHMETIC = {
+    "add": lambda *x: sum(x),
+    "mul": lambda *x: reduce(operator.mul, x),
+    "div": lambda x, y: x / y,
+    "inv": lambda x: 1 / x,
+    "matrix": lambda *x: np.array(x),
+    "row": lambda *x: np.array(x),
+}
+
+
 CONSTANTS = {"π", "d/dt"}
 
 
@@ -74,7 +133,7 @@ def test_every_letter_is_explained(name):
         for x in nodes(side):
             if isinstance(x, tuple) and x[0] == "par":
                 assert {x, ("par", x[1].rpartition("_")[0])} & (listed | equated), x
-        used = set(plain_names(side)) - indices - CONSTANTS
+        used = {x for x in plain_names(side) if not x[0].isdigit()} - indices - CONSTANTS
         assert used <= listed | equated, used - listed - equated
 
 
