@@ -254,7 +254,8 @@ def as_written(d: Derivation, e: Equation) -> Equation:
         known = ()
     sizes: dict[Tree, int] = {("at", "A", k): x.n for k, (_, x) in enumerate(known, 1)}
     if len(known) == 1:
-        sizes = {"A": known[0][1].n}
+        n = known[0][1].n
+        sizes = {"A": n} if d.problem.get("n") == n else {}
     gathering = Gathering({x: k for k, x in enumerate(ranked)}, sizes, name in PLANE)
     return replace(e, rhs=gathering.tree(e.rhs))
 

@@ -83,7 +83,7 @@ class Gathering:
         sin."""
         first, second = (("entry", "A", 1, j) for j in (1, 2))
         for c, p in [x for x in told if self.plane and x[1][second] == 2]:
-            rest = _less(p, Powers({second: 2}))
+            rest = less(p, Powers({second: 2}))
             if (other := (c, Powers({**rest, first: 2}))) in told:
                 told = [(c, rest) if x == other else x for x in told if x != (c, p)]
         rows: dict[tuple[Any, ...], dict[int, Monomial]] = {}
@@ -91,19 +91,27 @@ class Gathering:
         for c, p in told:
             for a in (x for x, k in p.items() if k == 1 and self._turns(x)):
                 _, block, i, j = a
-                for v in (x for x, k in p.items() if k == 1 and _of_vector(x, i)):
-                    rest = _less(p, Powers([a, v]))
+                for v in (x for x, k in p.items() if k == 1 and self._of_space(x, i)):
+                    rest = less(p, Powers([a, v]))
                     key = block, j, v[1], c, frozenset(rest.items())
                     rows.setdefault(key, {})[i] = c, p
                     new = ("entry", ("mul", ("T", block), v[1]), j)
                     turned[key] = c, Powers({**rest, new: 1})
         for key, members in rows.items():
-            there = [x for x in told if x in members.values()]
-            if len(there) == self.sizes[key[0]]:
+            whole = len(members) == self.sizes[key[0]]
+            there = [x for x in told if x in members.values()] if whole else []
+            if whole and len(there) == len(members):
                 one: dict[int, list[Monomial]] = {id(x): [] for x in there}
                 one[id(there[0])] = [turned[key]]
                 told = [y for x in told for y in one.get(id(x), [x])]
         return told
+
+    def _of_space(self, x: Tree, i: int) -> bool:
+        """Is it entry i of a vector with as many entries as A has rows, in a product a block?"""
+        if not (isinstance(x, tuple) and x[0] == "entry" and x[2:] == (i,)):
+            return False
+        inner = x[1] if isinstance(x[1], tuple) else ("",)
+        return "A" in self.sizes or inner[:2] in (("at", "d"), ("at", "χ"))
 
     def _norm(self, t: Tree) -> Tree:
         """‖v‖ for the root of the squares of all entries of v, less something or not."""
@@ -111,34 +119,42 @@ class Gathering:
             return t
         squares = [x for x in terms(t[2]) if isinstance(x, tuple) and x[0] == "pow" and x[2] == 2]
         entries = [terms(x[1])[0] for x in squares]
-        told = all(_of_vector(x, k) for k, x in enumerate(entries, 1))
+        told = all(self._of_space(x, k) for k, x in enumerate(entries, 1))
         vectors = {x[1] for x in entries if told and isinstance(x, tuple)}
-        if len(vectors) != 1 or not len(terms(t[2])) == len(squares) == max(self.sizes.values()):
+        if len(vectors) != 1 or not len(terms(t[2])) == len(squares) == max(
+            self.sizes.values(), default=0
+        ):
             return t
-        less = [neg(add(*terms(x[1])[1:])) for x in squares]
-        shift = neg(("matrix", *(("row", x) for x in less))) if any(less) else 0
+        away = [neg(add(*terms(x[1])[1:])) for x in squares]
+        shift = neg(("matrix", *(("row", x) for x in away))) if any(away) else 0
         return ("fun", "sqrt", ("norm2", add(*vectors, shift)))
 
     # Monomials as a sum.
 
     def _written(self, told: Sequence[Monomial]) -> Tree:
         """The sum of monomials, what they share apart; else what most of them share."""
-        if len(told) < 2:
-            return self._term(*told[0]) if told else 0
-        powers = [p for _, p in told]
-        shared = _shared(powers)
-        content = _content([c for c, _ in told], bool(shared))
-        if shared or content != 1:
-            inner = self._written([(c / content, _less(p, shared)) for c, p in told])
-            return self._term(*_product([(content, shared), _parts(inner)]))
-        if (factor := _most_shared(powers)) is None:
-            if all(isinstance(x, tuple) and x[0] == "par" for p in powers for x in p):
-                told = sorted(told, key=lambda x: min(map(self._rank, x[1]), default=(9, 0)))
-            first = next((k for k, (c, _) in enumerate(told) if c > 0), 0)
-            return add(*(self._term(*x) for x in (told[first], *told[:first], *told[first + 1 :])))
-        having = [x for x in told if x[1][factor[0]] * factor[1] > 0]
-        at, group = told.index(having[0]), _parts(self._written(having))
-        return self._written([*told[:at], group, *(x for x in told[at:] if x not in having)])
+        while len(told) > 1:
+            shared = shared_powers([p for _, p in told])
+            if any(k < 0 for _, p in told for k in less(p, shared).values()):
+                shared = +shared  # no fraction in a fraction
+            content = _content([c for c, _ in told], bool(shared))
+            if shared or content != 1:
+                inner = self._written([(c / content, less(p, shared)) for c, p in told])
+                return self._term(*_product([(content, shared), as_monomial(inner)]))
+            if (factor := _most_shared([p for _, p in told])) is None:
+                return self._sum(told)
+            has = [p[factor[0]] * factor[1] > 0 for _, p in told]
+            at, group = has.index(True), [x for x, y in zip(told, has, strict=True) if y]
+            others = [x for x, y in zip(told, has, strict=True) if not y]
+            told = [*others[:at], as_monomial(self._written(group)), *others[at:]]
+        return self._term(*told[0]) if told else 0
+
+    def _sum(self, told: Sequence[Monomial]) -> Tree:
+        """Monomials that share nothing, one that is added first; those of parameters in order."""
+        if all(map(of_parameters, (p for _, p in told))):
+            told = sorted(told, key=lambda x: min(map(self._rank, x[1]), default=(9, 0)))
+        first = next((k for k, (c, _) in enumerate(told) if c > 0), 0)
+        return add(*(self._term(*x) for x in (told[first], *told[:first], *told[first + 1 :])))
 
     def _term(self, c: Fraction, p: Powers) -> Tree:
         """A monomial as a product, or as a fraction whose line is below all of it."""
@@ -185,10 +201,6 @@ def _moves(x: Tree) -> bool:
     return x in MOVING
 
 
-def _of_vector(x: Tree, i: int) -> bool:
-    return isinstance(x, tuple) and x[0] == "entry" and x[2:] == (i,)
-
-
 def _factors(t: Tree, k: int = 1) -> Iterator[tuple[Tree, int]]:
     """The factors of a product or quotient of numbers, with their powers."""
     match t:
@@ -212,7 +224,8 @@ def _power(x: Tree, k: int) -> Monomial:
     return Fraction(1), Powers({x: k})
 
 
-def _parts(t: Tree) -> Monomial:
+def as_monomial(t: Tree) -> Monomial:
+    """A product or quotient as it stands."""
     return _product(_power(*x) for x in _factors(t))
 
 
@@ -221,7 +234,7 @@ def _product(factors: Iterable[Monomial]) -> Monomial:
     for q, p in factors:
         c *= q
         found.update(p)
-    return c, _less(found, Powers())
+    return c, less(found, Powers())
 
 
 def _merged(told: Iterable[Monomial]) -> list[Monomial]:
@@ -233,19 +246,26 @@ def _merged(told: Iterable[Monomial]) -> list[Monomial]:
     return [x for x in found.values() if x[0]]
 
 
-def _shared(powers: Sequence[Powers]) -> Powers:
+def shared_powers(powers: Sequence[Powers]) -> Powers:
     """What is a factor, or a divisor, of every monomial."""
     found = {x: [p[x] for p in powers] for x in powers[0]}
     return Powers({x: k for x, ks in found.items() if (k := max(0, min(ks)) + min(0, max(ks)))})
 
 
-def _less(p: Powers, q: Powers) -> Powers:
+def less(p: Powers, q: Powers) -> Powers:
+    """A product of powers divided by another."""
     return Powers({x: k - q[x] for x, k in p.items() if k != q[x]})
+
+
+def of_parameters(p: Powers) -> bool:
+    """Are all factors parameters?"""
+    return all(isinstance(x, tuple) and x[0] == "par" for x in p)
 
 
 def _most_shared(powers: Sequence[Powers]) -> tuple[Tree, int] | None:
     """The constant that is a divisor, or factor, of most monomials, and which of both."""
     counts = Counter((x, 1 if k > 0 else -1) for p in powers for x, k in p.items() if not _moves(x))
+    counts = Counter({x: k for x, k in counts.items() if k < len(powers)})
     most = max(counts, key=lambda y: (counts[y], -y[1]), default=None)
     return most if most and counts[most] > 1 else None
 
