@@ -9,6 +9,7 @@ import re
 import shutil
 import tomllib
 import zlib
+from functools import partial
 from pathlib import Path
 
 import derive
@@ -85,13 +86,17 @@ def marks(app, pagename, templatename, context, doctree):
     )
 
 
-def playground(app, pagename, templatename, context, doctree):
-    """The way to the playground at the head of every page, where it stands beside them."""
+def contents_shown(app, pagename, templatename, context, doctree):
+    """Above the table of contents of every page the way to the playground, where that stands
+    beside; its captions say of which level they are, as readers of screens ask."""
+    tree = context.get("furo_navigation_tree", "").replace(
+        'role="heading"', 'role="heading" aria-level="2"'
+    )
     if app.tags.has("play"):
         there = context["pathto"]("play/index.html", True)
-        context["theme_announcement"] = (
-            f'<a href="{there}">The playground: derive in this browser</a>'
-        )
+        link = f'<a class="reference internal" href="{there}">Open the playground</a>'
+        tree = f'<ul><li class="toctree-l1">{link}</li></ul>{tree}'
+    context["furo_navigation_tree"] = tree
 
 
 PROBLEM = ("group", "algebra", "fluid", "kinematics")
@@ -121,6 +126,42 @@ def opened_there(app, doctree, docname):
             block.parent.insert(block.parent.index(block) + 1, nodes.raw("", link, format="html"))
 
 
+ASKED = re.compile(r"derive walk (\S+) --answer")
+
+
+def typeset(app, doctree, docname):
+    """Before what a command printed of an answer, its equations of motion, set."""
+    from docutils import nodes
+
+    from derive.command.showing import load_problem
+    from derive.pipeline import walk
+    from derive.problem.toml import problem_of
+    from derive.views.answer import summary
+    from derive.views.layout import as_read
+    from derive.views.outline import latex_names
+    from derive.views.printing.signs import Notation
+    from derive.views.printing.tex import formula
+    from derive.views.printing.typeset import literal
+
+    own, asked = {}, ""
+    for block in [*doctree.findall(nodes.literal_block)]:
+        text = block.astext()
+        if block.get("language") == "toml" and "name" in (data := tomllib.loads(text)):
+            own[f"{data['name']}.toml"] = data
+        if block.get("language") == "sh":
+            found = ASKED.search(text)
+            asked = found[1] if found else ""
+        elif asked and "=" in text and block.get("language") != "toml":
+            problem = problem_of(own[asked]) if asked in own else load_problem(asked)
+            d = as_read(walk(problem))
+            told = summary(d).blocks[0][1].equations
+            set_ = partial(formula, names=latex_names(d), notation=Notation())
+            rows = (set_(e.lhs) + literal(" = ") + set_(e.rhs) for e in told)
+            shown = "".join(f'<div class="answer">{x.plain().mathml()}</div>' for x in rows)
+            block.parent.insert(block.parent.index(block), nodes.raw("", shown, format="html"))
+            asked = ""
+
+
 def index(app, exception):
     """README by the name that browsers look for."""
     if exception is None:
@@ -130,7 +171,8 @@ def index(app, exception):
 def setup(app):
     """Where Sphinx calls these."""
     app.connect("source-read", contents)
-    app.connect("html-page-context", playground)
     app.connect("html-page-context", marks)
+    app.connect("html-page-context", contents_shown, priority=900)  # of the theme's own tree
+    app.connect("doctree-resolved", typeset)
     app.connect("doctree-resolved", opened_there)
     app.connect("build-finished", index)

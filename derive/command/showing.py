@@ -140,8 +140,8 @@ def allowed(args: argparse.Namespace) -> dict[str, bool]:
 
 # What a command shows of a record: which of its steps, in which notation, to where.
 
-LEAST = 40
-"""The fewest columns of a text."""
+LEAST, MOST = 40, 120
+"""The fewest and the most columns of a text."""
 
 
 def save(text: str, out: str | None, form: str, *, paged: bool = True) -> None:
@@ -162,7 +162,7 @@ def columns(out: str | None) -> int:
     many as ever in the file ``out``, and where another program reads."""
     if out is not None or not (sys.stdout.isatty() or os.environ.get("COLUMNS")):
         return WIDTH
-    return max(shutil.get_terminal_size((WIDTH, 24)).columns, LEAST)
+    return min(max(shutil.get_terminal_size((WIDTH, 24)).columns, LEAST), MOST)
 
 
 def save_steps(

@@ -130,6 +130,13 @@ def _base(t: Tree) -> str:
     return f"({_show(t)[0]})" if raised or isinstance(t, Fraction) else _atom(t)
 
 
+def _under(t: Tree) -> str:
+    """The text of a divisor: bare if it is a power of a letter or of a norm."""
+    shown = show(t)
+    power = isinstance(t, tuple) and t[0] == "pow" and t[2] > 0 and _node(t)[1] == ATOM
+    return shown if power else _base(t)
+
+
 def _below(t: Tree) -> str:
     """The text of a metric below a product, in brackets where its index would be read as the
     product's."""
@@ -235,7 +242,7 @@ def _node(t: tuple[object, ...]) -> tuple[str, int]:
         c, rest = coefficient(arguments[0])
         above, level = _show(mul(abs(c), rest))
         above = f"({above})" if level == SUM or swallows(rest) else above
-        text = f"{above}/{_base(arguments[1])}"
+        text = f"{above}/{_under(arguments[1])}"
         return (text, PRODUCT) if c >= 0 else (f"−{text}", SUM)
     if op == "wedge":
         return " ∧ ".join(_operand(a) for a in arguments), PRODUCT

@@ -12,11 +12,13 @@ from fractions import Fraction
 from functools import partial
 from unicodedata import normalize
 
+from ..algebra.families import group
 from ..language.reserved import advected_entries, by_letter
 from ..language.show import show
 from ..language.tree import Tree, add, coefficient, mul, names, neg, nodes, replaced, terms
 from ..record.record import ANY_GROUP, Derivation, Equation, Step
 from ..record.sentence import Prose, Sentence
+from .gathered import Gathering, decimal
 from .language import ENGLISH, Language
 from .layout import Reading
 from .outline import Letter, headline, latex_names, parameters, printed
@@ -217,10 +219,18 @@ def summary(
     d: Derivation, language: Language = ENGLISH, by_block: Mapping[str, str] | None = None
 ) -> Summary:
     """The answer of a record in a language; ``by_block``: names of the velocity → by the blocks."""
+
+    def shown(e: Equation) -> Equation:
+        e = as_written(d, e)
+        return replace(e, rhs=in_decimals(e.rhs, language))
+
     told, motion = steps_of_answer(d), equations_of_motion(d)
     where = definitions(d, motion)
-    whole = replace(told[-1], label=f"{d.name}.answer", equations=motion)
-    defined = replace(whole, label=f"{d.name}.where", equations=where)
+    label = f"{d.name}.answer", f"{d.name}.where"
+    whole, defined = (
+        replace(told[-1], label=x, equations=tuple(shown(e) for e in y))
+        for x, y in zip(label, (motion, where), strict=True)
+    )
     blocks = (("", whole), (language.word("where"), defined))
     source = language.word("From {labels}.", labels=", ".join(s.label for s in told))
     if by_block:
@@ -228,6 +238,38 @@ def summary(
         source += " " + language.word("In code {names} are {also}.", names=own, also=also)
     listed = tuple(letters(d, (*motion, *where), language))
     return Summary(d, language, blocks if where else blocks[:1], listed, source)
+
+
+FIRST = ("kg", "m/s^2")
+"""Units of what stands first in a product, before lengths and angles: mgl."""
+
+
+def as_written(d: Derivation, e: Equation) -> Equation:
+    """An equation as a person writes it, its right side gathered."""
+    name, about = str(d.problem.get("group")), d.problem.get("parameters") or {}
+    units = {x: str((y or {}).get("unit", "")) for x, y in about.items()}
+    ranked = sorted(about, key=lambda x: [not units[x].startswith(y) for y in FIRST])
+    try:
+        known = group(name).places
+    except ValueError:  # a group of the problem's own
+        known = ()
+    sizes: dict[Tree, int] = {("at", "A", k): x.n for k, (_, x) in enumerate(known, 1)}
+    if len(known) == 1:
+        n = known[0][1].n
+        sizes = {"A": n} if d.problem.get("n") == n else {}
+    gathering = Gathering({x: k for k, x in enumerate(ranked)}, sizes, name in PLANE)
+    return replace(e, rhs=gathering.tree(e.rhs))
+
+
+def in_decimals(t: Tree, language: Language) -> Tree:
+    """A tree with 9.81 for 981/100."""
+    if isinstance(t, Fraction) and decimal(t):
+        shown = language.decimal(abs(float(t)))
+        return neg(shown) if t < 0 else shown
+    if not isinstance(t, tuple) or t[0] == "par":
+        return t
+    parts = [in_decimals(x, language) for x in t[1:]]
+    return mul(*parts) if t[0] == "mul" else (t[0], *parts)
 
 
 def answer_text(x: Summary, width: int = WIDTH) -> str:

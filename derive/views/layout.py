@@ -8,7 +8,6 @@ alignment, none wider than the page.
 from __future__ import annotations
 
 import re
-from collections import Counter
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import groupby, product
@@ -21,6 +20,7 @@ from ..language.show import in_sentence, show
 from ..language.tree import Tree, add, coefficient, mul, neg, operands, terms
 from ..record.record import Derivation, Equation, Step, Symbol
 from ..record.sentence import Prose, Sentence, phrase
+from .gathered import as_monomial, less, of_parameters, shared_powers
 from .language import ENGLISH, Entry, Language, entries
 from .outline import domain, moving, quantified
 from .printing.sentences import spelt
@@ -172,33 +172,17 @@ def unfolded(t: Tree) -> Tree:
 def factored(t: Tree) -> Tree:
     """A sum of products of parameters with the factors of all of them before it; any other tree as
     it is."""
-    if not isinstance(t, tuple) or t[0] != "add":
+    told = [*map(as_monomial, terms(t))]
+    powers = [p for _, p in told]
+    common = shared_powers(powers)
+    whole = all(c == 1 and of_parameters(p) and min(p.values()) > 0 for c, p in told if p)
+    if len(told) < 2 or not common or not whole:
         return t
-    terms = [_powers(x) for x in t[1:]]
-    if not all(terms):
-        return t
-    common = terms[0].copy()
-    for x in terms[1:]:
-        common &= x
-    if not common:
-        return t
-    return mul(*_product(common), add(*(mul(*_product(x - common)) for x in terms)))
+    return mul(_product(common), add(*(_product(less(p, common)) for p in powers)))
 
 
-def _powers(t: Tree) -> Counter[Tree]:
-    """How often each parameter is a factor of a product of them and of a number; empty for another
-    tree."""
-    found: Counter[Tree] = Counter()
-    for x in t[1:] if isinstance(t, tuple) and t[0] == "mul" else (t,):
-        base, power = x[1:] if isinstance(x, tuple) and x[0] == "pow" else (x, 1)
-        if not (isinstance(base, tuple) and base[0] == "par" and isinstance(power, int)):
-            return Counter()
-        found[base] += power
-    return found
-
-
-def _product(powers: Counter[Tree]) -> list[Tree]:
-    return [("pow", x, k) if k > 1 else x for x, k in powers.items()] or [1]
+def _product(powers: Mapping[Tree, int]) -> Tree:
+    return mul(1, *(("pow", x, k) if k > 1 else x for x, k in powers.items()))
 
 
 ROOM = 38.0

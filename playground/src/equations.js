@@ -57,7 +57,6 @@ export class Equations {
     this.#open.write("</div>");
     this.#open.close();
     this.#open = null;
-    for (const summary of this.#root.querySelectorAll("summary")) unlinked(summary);
     for (const wide of this.#root.querySelectorAll(".wide")) this.#seen.observe(wide);
     told(this.#root, this.#words);
     copies(this.#root, this.#words);
@@ -173,18 +172,6 @@ function told(root, words) {
       rest.before(link);
     }
   }
-}
-
-/* the links of a summary, which opens and shuts, stand in what it opens */
-function unlinked(summary) {
-  const links = [...summary.querySelectorAll("a")];
-  if (!links.length) return;
-  const list = make("p", { class: "note" });
-  for (const link of links) {
-    link.replaceWith(link.textContent);
-    list.append(link, " ");
-  }
-  summary.after(list);
 }
 
 /* one equation as one formula, which needs no style of this page */

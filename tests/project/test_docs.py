@@ -208,5 +208,5 @@ def test_the_site_leads_to_its_playground():
         app = SimpleNamespace(tags=SimpleNamespace(has=tags.__contains__))
         conf = runpy.run_path(str(ROOT / "docs" / "conf.py"))
         context = {"pathto": lambda path, resource: f"../{path}" if resource else ""}
-        conf["playground"](app, "docs/motion", "page.html", context, None)
-        assert ('href="../play/index.html"' in context.get("theme_announcement", "")) is told
+        conf["contents_shown"](app, "docs/motion", "page.html", context, None)
+        assert ('href="../play/index.html"' in context["furo_navigation_tree"]) is told

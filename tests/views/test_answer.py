@@ -2,6 +2,7 @@
 fluid, and of both trivialisations."""
 
 import re
+from dataclasses import replace
 from fractions import Fraction
 from unicodedata import normalize
 
@@ -10,15 +11,19 @@ import pytest
 import sympy
 
 import derive
+from derive.check.checker import checker_of
+from derive.check.form.hypotheses_checked import denominators
 from derive.command.cli import main
 from derive.command.showing import ready_made
 from derive.language.show import show
 from derive.language.tree import neg, nodes
 from derive.pipeline import both_trivialisations, walk
 from derive.problem.toml import problem_of
+from derive.record.record import Hypothesis
 from derive.views.answer import (
     answer_mathml,
     answer_text,
+    as_written,
     definitions,
     equations_of_motion,
     rounded,
@@ -56,6 +61,24 @@ def test_it_is_of_the_record_and_as_wide_as_is_asked_for(name):
         assert steps_of_answer(record)[0].label in shown
 
 
+@pytest.mark.parametrize("name", ready_made())
+def test_what_is_gathered_holds(name):
+    """The checker, which knows no views, tries the answer and its definitions as they are written,
+    where what they divide by is not 0."""
+    d = walk_of(name)
+    motion, checker = equations_of_motion(d), checker_of(d.problem, 1)
+    checker.symbols(d)
+    for step in d.steps:
+        if {*motion, *definitions(d, motion)} & {*step.equations}:
+            told = tuple(as_written(d, e) for e in step.equations)
+            divisors = {t for e in told for t in denominators(e.rhs)}
+            supposed = {x.of for x in step.hypotheses}
+            more = tuple(Hypothesis("nonzero", t) for t in divisors - supposed)
+            written = replace(step, equations=told, hypotheses=(*step.hypotheses, *more))
+            verdict = checker.check(written)
+            assert verdict.holds, (step.label, verdict.reason)
+
+
 CONSTANTS = {"π", "d/dt"}
 
 
@@ -74,7 +97,7 @@ def test_every_letter_is_explained(name):
         for x in nodes(side):
             if isinstance(x, tuple) and x[0] == "par":
                 assert {x, ("par", x[1].rpartition("_")[0])} & (listed | equated), x
-        used = set(plain_names(side)) - indices - CONSTANTS
+        used = {x for x in plain_names(side) if not x[0].isdigit()} - indices - CONSTANTS
         assert used <= listed | equated, used - listed - equated
 
 

@@ -19,7 +19,7 @@ from derive.problem.fields import state_names
 from derive.problem.toml import problem_of
 from derive.record.sentence import PLACE, Sentence
 from derive.searches import equilibria
-from derive.views.answer import answer_mathml
+from derive.views.answer import answer_mathml, as_written, equations_of_motion
 from derive.views.arrows import arrows, marks
 from derive.views.language import catalogue_entries, language
 from derive.views.layout import Reading, as_read, factored
@@ -46,6 +46,15 @@ def test_every_format_has_a_reader():
 @pytest.mark.parametrize("name", repeated(dict.fromkeys((*NAMES, *FLUIDS, *OTHERS, *ESTIMATES))))
 def test_every_page_says_what_its_record_says(name):
     assert [x for kind in PAGES for x in faults(record(name), kind)] == []
+
+
+@pytest.mark.parametrize("kind", ["text", "latex", "markdown"])
+@pytest.mark.parametrize("name", repeated(NAMES))
+def test_an_answer_as_a_person_writes_it_is_read_back(name, kind):
+    d = record(name)
+    told = [as_written(d, e) for e in equations_of_motion(d) if not (e.for_all or e.exists)]
+    step = replace(d.steps[-1], equations=tuple(told), uses=())
+    assert not told or faults(replace(d, steps=(step,)), kind) == []
 
 
 SIZES = {
