@@ -418,8 +418,8 @@ def _stepped(claims: Claims) -> Scene:
     for role, start in zip((AXES[0], AXES[2], AXES[1]), STARTED, strict=True):
         strokes += view.on_sphere(path_on_orbit(claims, ORBITS[0], *start), role, "thin")
         stepped = in_steps(claims, ORBITS[0].surface(*start), STEP, DOTS)
-        shown = (x for x in stepped if view.depth(x) > 0)
-        dots += [Dot(view.at(x), 0.55, role) for x in shown]
+        sized = zip(stepped, (1.0, *[0.55] * DOTS), strict=True)
+        dots += [Dot(view.at(x), size, role) for x, size in sized if view.depth(x) > 0]
     axes, labels = view.named_axes()
     return panel((50, 51), [*strokes, *axes], labels, dots)
 
