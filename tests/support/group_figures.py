@@ -14,11 +14,9 @@ from typing import Any
 
 import numpy as np
 
-from ..language.tree import Tree
-from ..views.figure.drawing import Dot, Label, Point, Scene, Stroke, arrow
-from ..views.figure.drawn_body import UNITS, scaled
-from .lecture_text import tree
-from .sheets import (
+from derive.language.tree import Tree
+from derive.lecture.lecture_text import tree
+from derive.lecture.sheets import (
     AXES,
     TURN,
     Claims,
@@ -27,13 +25,13 @@ from .sheets import (
     View,
     beside,
     euler,
-    hat,
-    nearest,
     numbered,
     panel,
     solved,
-    value,
 )  # fmt: skip
+from derive.views.figure.drawing import Dot, Label, Point, Scene, Stroke, arrow
+from derive.views.figure.drawn_body import UNITS, scaled
+from tests.support.picture_values import hat, nearest, value
 
 # The momentum of a Lagrangian that is half a quadratic form of the velocity, on three groups.
 
