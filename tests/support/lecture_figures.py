@@ -1,14 +1,14 @@
 """The figures of the course, computed: python -m tests.support.lecture_figures.
 
-The reference racket and the racket at a time.  The heavy top: its effective potential, and the
-paths of its axis.  What keeps its volume: four points at three times, with the multiplier over
+The racket of the first is a drawing, and only there.  The heavy top: its effective potential, and
+the paths of its axis.  What keeps its volume: four points at three times, with the multiplier over
 time, and an ellipse of fluid with its pressure.  Motions are those of the equations that the text
 displays; what is written is rounded, and without the points that are on a line with others.
 """
 
 import json
 import math
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from itertools import combinations
 from typing import Any
@@ -19,7 +19,7 @@ from derive.language.derivatives import derivative
 from derive.language.tree import Tree
 from derive.lecture import fresh_numbers
 from derive.lecture.document import claims_of
-from derive.lecture.figures import PICTURES, bow, displacement, polhodes
+from derive.lecture.figures import PICTURES, polhodes
 from derive.lecture.fresh_numbers import TILT
 from derive.lecture.lecture_text import chapters, tree
 from derive.lecture.motion_figures import poinsot
@@ -36,7 +36,6 @@ from derive.lecture.sheets import (
     solved,
 )  # fmt: skip
 from derive.views.figure.drawing import Dot, Label, Point, Scene, Stroke, arrow, from_segment
-from derive.views.figure.drawn_body import UNITS, plus, scaled
 from tests.support.group_figures import (
     carried_curve,
     hammer_thrown,
@@ -239,59 +238,7 @@ def _fluid(A: Any, t: float) -> Scene:
 
 # The whole theory in one picture: a racket, and what the group makes of it.
 
-HEAD = [(1.15 + 0.75 * math.cos(x), 0.55 * math.sin(x), 0.0) for x in TURN]
-HANDLE = [(-0.15, 0.07, 0.0), (-1.25, 0.07, 0.0), (-1.25, -0.07, 0.0), (-0.15, -0.07, 0.0)]
-THROAT = [[(-0.15, s * 0.07, 0.0), (0.62, s * 0.39, 0.0)] for s in (1.0, -1.0)]
-POINT = HEAD[20]
-"""One of the points of the body."""
-
-
-def _strings() -> Iterable[list[Vector]]:
-    """The strings of the head, along and across it."""
-    for k in range(-3, 4):
-        y, x = 0.16 * k, 0.2 * k
-        along, across = (math.sqrt(1 - r * r) for r in (y / 0.55, x / 0.75))
-        yield [(1.15 + s * 0.75 * along, y, 0.0) for s in (1.0, -1.0)]
-        yield [(1.15 + x, s * 0.55 * across, 0.0) for s in (1.0, -1.0)]
-
-
-def _racket_at(centre: Point, move: Callable[[Sequence[float]], Vector], letter: str) -> Scene:
-    """The racket, moved, with its axes, whose names follow ``letter``."""
-    view = View(centre, 15.5, -55, 24)
-
-    def stroke(points: Iterable[Vector], role: str, pen: str = "line") -> Stroke:
-        return Stroke(tuple(view.at(move(x)) for x in points), role, pen)
-
-    strokes = [stroke(HEAD, "body", "wash"), *(stroke(x, "body", "thin") for x in _strings())]
-    strokes += (stroke(x, "body") for x in (HEAD, *THROAT))
-    strokes += (stroke(HANDLE, "body", "wash"), stroke((*HANDLE, HANDLE[0]), "body"))
-    labels = []
-    for k, length in enumerate((2.3, 1.0, 1.0)):
-        tip, far = (view.at(move(scaled(length + more, UNITS[k]))) for more in (0, 0.22))
-        strokes += arrow(centre, tip, AXES[k])
-        labels.append(Label(f"{letter}e", str(k + 1), at=far))
-    outside = plus(scaled(1.12, POINT), UNITS[1], 0.24)
-    labels.append(Label(f"{letter}r", "i", at=view.at(move(outside))))
-    labels.append(Label("O", at=(centre[0] + 0.5, centre[1] - 3.2)))
-    dots = [Dot(centre, 0.6, "body"), Dot(view.at(move(POINT)), 0.75, "body")]
-    return panel((62, 46), strokes, labels, dots)
-
-
-def theory(_: Claims) -> Scene:
-    """The reference body, and the body at a time; the rotation that carries one to the other."""
-    both = beside(
-        _racket_at((22.0, 18.0), lambda v: (*v,), ""),
-        _racket_at((26.0, 14.0), displacement, "A"),
-        gap=0,
-    )
-    strokes, label = bow((52.0, 38.0), 24)
-    return panel(
-        (both.width, both.height + 2), (*both.strokes, *strokes), (*both.labels, label), both.dots
-    )
-
-
 DRAWN: dict[str, Callable[[Claims], Scene]] = {
-    "theory": theory,
     "polhodes": polhodes,
     "rolling": poinsot,
     "tilts": tilts,

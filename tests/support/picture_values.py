@@ -1,8 +1,8 @@
 """Values of expressions of numbers, vectors and square matrices, for the figures of the course."""
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from functools import lru_cache, reduce
-from operator import itemgetter, truediv
+from functools import reduce
+from operator import truediv
 from typing import Any, TypeVar
 
 import numpy as np
@@ -20,27 +20,13 @@ def nearest(run: Sequence[State], times: Iterable[float]) -> list[State]:
 def value(t: Tree, of: Mapping[Tree, Any]) -> Any:
     """The value of an expression of numbers, vectors and square matrices, by those ``of`` its
     letters; ``⟨a, b⟩`` is the sum of the products of the components of both."""
-    return _function(t, frozenset(of))(of)
-
-
-@lru_cache(maxsize=256)
-def _function(t: Tree, letters: frozenset[Tree]) -> Callable[[Mapping[Tree, Any]], Any]:
-    """Letters → the value of an expression: a motion asks for it thousands of times."""
-    if t in letters:
-        return itemgetter(t)
+    if t in of:
+        return of[t]
     if not isinstance(t, tuple):
-        number = float(t)
-        return lambda of: number
+        return float(t)
     if t[0] == "pow":
-        base, exponent = _function(t[1], letters), t[2]
-        return lambda of: _power(base(of), exponent)
-    if t[0] not in OPERATIONS:
-        raise ValueError(f"no value for the operator {t[0]!r}")
-    operation, operands = OPERATIONS[t[0]], [_function(x, letters) for x in t[1:]]
-    if len(operands) == 1:
-        (only,) = operands
-        return lambda of: operation(only(of))
-    return lambda of: operation(*[x(of) for x in operands])
+        return _power(value(t[1], of), t[2])
+    return OPERATIONS[t[0]](*(value(x, of) for x in t[1:]))
 
 
 def _power(base: Any, exponent: int) -> Any:
