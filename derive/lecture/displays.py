@@ -8,14 +8,14 @@ import re
 from collections.abc import Iterable, Iterator, Sequence
 from itertools import groupby
 
-from ..language.tree import Tree, nodes, replaced, terms
+from ..language.tree import Tree, nodes, replaced
 from ..record.record import Equation
 from ..views.layout import broken, indented
 from ..views.printing.letters import NAMES
 from ..views.printing.tex import formula
 from ..views.printing.typeset import Formula, literal, measure, plain
 from ..views.text import aligned
-from .common_factors import by_divisors, tidied
+from .common_factors import tidied
 
 WIDTH, TALL = 36.0, 14
 """The width of a display in em; the most rows of one that no page parts."""
@@ -142,8 +142,7 @@ class NamedSums:
             while measure(plain(sides(e).tex)) > WIDTH and (sum_ := self._chosen(e.rhs)):
                 if sum_ not in self.sums:
                     self.sums[sum_] = ("at", self.letter, len(self.sums) + 1)
-                    divisors = [x for x in nodes(e.rhs) if terms(x)[1:]]
-                    new.append(Equation(self.sums[sum_], by_divisors(sum_, divisors)))
+                    new.append(Equation(self.sums[sum_], sum_))
                 e = Equation(e.lhs, replaced(e.rhs, sum_, self.sums[sum_]), e.for_all, e.exists)
             found.append(e)
             left = new + left

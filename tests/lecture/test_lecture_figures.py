@@ -26,7 +26,7 @@ I1, I3, P = lecture_figures.PARAMETERS.values()
 
 
 def top(kind):
-    return lecture_figures.Top(CLAIMS, lecture_figures.PRECESSIONS[kind])
+    return lecture_figures.top(CLAIMS, lecture_figures.PRECESSIONS[kind])
 
 
 def momenta(kind):

@@ -9,7 +9,6 @@ displays; what is written is rounded, and without the points that are on a line 
 import json
 import math
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
 from itertools import combinations
 from typing import Any
 
@@ -51,15 +50,8 @@ PRECESSIONS = {"waves": 0.27, "cusps": 0.0, "loops": -0.6}
 """Kind of a path → the rate of precession at first."""
 
 
-@dataclass(frozen=True)
 class Top(fresh_numbers.Top):
-    """The top of the figures."""
-
-    parameters: Mapping[Tree, float] = field(
-        default_factory=lambda: {tree(x): y for x, y in PARAMETERS.items()}
-    )
-    spin: float = SPIN
-    upper: float = UPPER
+    """A top with its motion."""
 
     def potential(self, u: float) -> float:
         """The effective potential where u is the cosine of the tilt."""
@@ -85,15 +77,20 @@ class Top(fresh_numbers.Top):
         return points
 
 
+def top(claims: Claims, precession: float) -> Top:
+    """The top of the figures, by its rate of precession at first."""
+    return Top(claims, precession, {tree(x): y for x, y in PARAMETERS.items()}, SPIN, UPPER)
+
+
 def tilts(claims: Claims) -> Scene:
     """The effective potential of the top that draws loops, and the level of its energy."""
-    top = Top(claims, PRECESSIONS["loops"])
-    level, turns = top.constants[tree("h̃")], (top.lower, UPPER)
-    reverse = top.constants[tree("𝒥₁")] / SPIN
+    at = top(claims, PRECESSIONS["loops"])
+    level, turns = at.constants[tree("h̃")], (at.lower, UPPER)
+    reverse = at.constants[tree("𝒥₁")] / SPIN
     frame = Frame((10.0, 6.0), (80.0, 38.0), (-1.0, level - 1.1), (1.0, level + 2.4))
     grid = (k / 500 - 1 for k in range(1, 1000))
-    curve = [(u, y) for u in grid if (y := top.potential(u)) < frame.high[1]]
-    names = {-1.0: "−1", top.lower: "u₁", UPPER: "u₂", 1.0: "1"}
+    curve = [(u, y) for u in grid if (y := at.potential(u)) < frame.high[1]]
+    names = {-1.0: "−1", at.lower: "u₁", UPPER: "u₂", 1.0: "1"}
     strokes, labels = frame.axes((Label("A", "33"), Label("𝒱")), names, {level: "h̃"}, level)
     strokes.append(frame.curve(curve, AXES[2]))
     strokes.append(frame.curve([(u, level) for u in turns], AXES[2], "thick"))
@@ -107,7 +104,7 @@ def tilts(claims: Claims) -> Scene:
 
 def top_paths(claims: Claims) -> Scene:
     """The paths of the axis on the sphere: waves, cusps, loops."""
-    return beside(*(_path_of_axis(Top(claims, x)) for x in PRECESSIONS.values()), gap=3)
+    return beside(*(_path_of_axis(top(claims, x)) for x in PRECESSIONS.values()), gap=3)
 
 
 def _path_of_axis(top: Top) -> Scene:
