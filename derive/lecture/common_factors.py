@@ -1,6 +1,6 @@
 """Sums as people write them: before a bracket what several terms have of parameters, equal factors
-as a power, a polynomial by a divisor that is known.  What is shown instead of a tree is equal to
-it as a rational function, or the tree stays."""
+as a power.  What is shown instead of a tree is equal to it as a rational function, or the tree
+stays."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from fractions import Fraction
 from math import gcd, lcm
 
-from ..language.laurent import Laurent, Monomial, OverlongError, polynomial, vanishes, written
+from ..language.laurent import OverlongError, vanishes
 from ..language.tree import Tree, add, mul, names, neg, terms
 from ..record.record import Equation
 
@@ -164,33 +164,3 @@ def positive(t: Tree, numbers: Mapping[str, float]) -> bool:
         letter = t[2] % 2 == 0 and isinstance(t[1], tuple) and t[1][0] == "par"
         return (letter and numbers.get(t[1][1], 1) != 0) or positive(t[1], numbers)
     return t[0] in ("add", "mul", "div") and all(positive(x, numbers) for x in t[1:])
-
-
-def by_divisors(t: Tree, divisors: Iterable[Tree]) -> Tree:
-    """A polynomial as a product with the first of some sums that divides it; else as it is."""
-    try:
-        whole = polynomial(t)
-        for x in divisors:
-            if x != t and (rest := _quotient(whole, polynomial(x))):
-                return mul(x, written(rest))
-    except OverlongError:
-        pass
-    return t
-
-
-def _quotient(p: Laurent, d: Laurent) -> Laurent | None:
-    """The quotient of two polynomials, if it is one."""
-    letters = sorted({x for of in (p, d) for m in of.terms for x, _ in m}, key=repr)
-
-    def place(m: Monomial) -> tuple[int, ...]:
-        return (*(dict(m).get(x, 0) for x in letters),)
-
-    lead, found = max(d.terms, key=place), Laurent({})
-    while p:
-        first = max(p.terms, key=place)
-        powers = [a - b for a, b in zip(place(first), place(lead), strict=True)]
-        if min(powers) < 0:
-            return None
-        part = Laurent.monomial(zip(letters, powers, strict=True), p.terms[first] / d.terms[lead])
-        found, p = found + part, p + part * d * -1
-    return found

@@ -4,21 +4,24 @@ quotients, where these make an equation wider than the text."""
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Iterator, Sequence
 from itertools import groupby
 
-from ..language.tree import Tree, nodes, replaced, terms
+from ..language.tree import Tree, nodes, replaced
 from ..record.record import Equation
 from ..views.layout import broken, indented
 from ..views.printing.letters import NAMES
 from ..views.printing.tex import formula
 from ..views.printing.typeset import Formula, literal, measure, plain
 from ..views.text import aligned
-from .common_factors import by_divisors, tidied
+from .common_factors import tidied
 
 WIDTH, TALL = 36.0, 14
 """The width of a display in em; the most rows of one that no page parts."""
 FEW_ROWS = 3
+LAST = re.compile(r"(\n\\end\{aligned\})?\Z")
+"""Where the last line of a display ends."""
 
 
 LETTERS = NAMES | {"free rho": r"\rho"}
@@ -34,9 +37,9 @@ def displayed(x: Formula) -> str:
     return tall("\n".join((r"\begin{aligned}", " \\\\\n".join(rows), r"\end{aligned}")))
 
 
-def blocks(equations: Sequence[Equation]) -> str:
+def blocks(equations: Sequence[Equation], sign: str = "") -> str:
     """Equations of a record as displays, which a page may part: short ones below one another, one
-    that is too wide in several lines."""
+    that is too wide in several lines; behind the last a ``sign``."""
     found: list[str] = []
     for (wide, family), run in groupby(equations, _manner):
         together = [*run]
@@ -46,6 +49,7 @@ def blocks(equations: Sequence[Equation]) -> str:
             found += _side_by_side(together)
         else:
             found += [tall(y) for x in _parted(together) for y in aligned(x, LETTERS)]
+    found[-1] = LAST.sub(lambda x: sign + x[0], found[-1], count=1)
     return "\\]\n\\[".join(found)
 
 
@@ -138,8 +142,7 @@ class NamedSums:
             while measure(plain(sides(e).tex)) > WIDTH and (sum_ := self._chosen(e.rhs)):
                 if sum_ not in self.sums:
                     self.sums[sum_] = ("at", self.letter, len(self.sums) + 1)
-                    divisors = [x for x in nodes(e.rhs) if terms(x)[1:]]
-                    new.append(Equation(self.sums[sum_], by_divisors(sum_, divisors)))
+                    new.append(Equation(self.sums[sum_], sum_))
                 e = Equation(e.lhs, replaced(e.rhs, sum_, self.sums[sum_]), e.for_all, e.exists)
             found.append(e)
             left = new + left

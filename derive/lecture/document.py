@@ -63,7 +63,7 @@ class Medium:
     inline: Callable[[typeset.Formula], str]
     display: Callable[[typeset.Formula], str]
     picture: Callable[[Scene], str]
-    aligned: Callable[[Sequence[Equation]], str]
+    aligned: Callable[[Sequence[Equation], str], str]
     apart: str
 
 
@@ -102,7 +102,9 @@ PAGE: Medium = Medium(
     lambda x: x.mathml(),
     lambda x: x.mathml().replace("<math>", '<math display="block">'),
     svg,
-    lambda equations: "\n".join(map(PAGE.display, map(sides, equations))),  # one below the other
+    lambda equations, sign: "\n".join(  # one below the other
+        PAGE.display(sides(e) + literal(sign * (e is equations[-1]))) for e in equations
+    ),
     '<span class="display">{}</span>',
 )
 
@@ -261,12 +263,13 @@ class _Setter:
         """A display: formulas side by side, with a comma where their sentence goes on."""
         ((whole,), *_) = x.texts
         assert isinstance(whole, Formula)
-        if whole.recorded:
-            return self.medium.aligned(whole.shown or whole.recorded)
-        parts = [formula(y) for y in re.split(r",\s\s+", whole.text)]
         first = str(behind.texts[0][0]) if behind else ""
         goes_on = first[:1].islower() or (behind and behind.display)
-        parts[-1] += literal("" if x.runs_on else "," if goes_on else ".")
+        sign = "" if x.runs_on else "," if goes_on else "."
+        if whole.recorded:
+            return self.medium.aligned(whole.shown or whole.recorded, sign)
+        parts = [formula(y) for y in re.split(r",\s\s+", whole.text)]
+        parts[-1] += literal(sign)
         return self.medium.display(reduce(lambda x, y: x + literal(r",\qquad ") + y, parts))
 
     def words(self, text: Words) -> str:

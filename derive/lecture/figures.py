@@ -1,16 +1,16 @@
-"""The figures of the lecture, as scenes: no picture is drawn that is not computed here, and motions
-are those of the equations that the text displays."""
+"""The figures of the lecture, as scenes: those of the course as they were computed and rounded, and
+the polhodes and the flip of a body, by the equations that the text displays."""
 
 from __future__ import annotations
 
+import json
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
+from functools import partial
+from pathlib import Path
 
 from ..views.figure.drawing import Dot, Label, Point, Scene, Stroke, arrow
-from ..views.figure.drawn_body import UNITS, plus, scaled
-from .group_figures import carried_curve, hammer_thrown, momenta_in_steps, momenta_on_orbits
-from .motion_figures import ellipse, poinsot, tetrahedron, tilts, top_paths
 from .sheets import AXES, TURN, Claims, Frame, Vector, View, beside, euler, numbered, panel, solved
 
 LEVELS = (0.1, 0.3, 0.55, 0.8)
@@ -89,22 +89,7 @@ def _flip(claims: Claims, body: Spun) -> Scene:
     return panel((63, 49), strokes, labels)
 
 
-# The whole theory in one picture: a racket, and what the group makes of it.
-
-HEAD = [(1.15 + 0.75 * math.cos(x), 0.55 * math.sin(x), 0.0) for x in TURN]
-HANDLE = [(-0.15, 0.07, 0.0), (-1.25, 0.07, 0.0), (-1.25, -0.07, 0.0), (-0.15, -0.07, 0.0)]
-THROAT = [[(-0.15, s * 0.07, 0.0), (0.62, s * 0.39, 0.0)] for s in (1.0, -1.0)]
-POINT = HEAD[20]
-"""One of the points of the body."""
-
-
-def _strings() -> Iterable[list[Vector]]:
-    """The strings of the head, along and across it."""
-    for k in range(-3, 4):
-        y, x = 0.16 * k, 0.2 * k
-        along, across = (math.sqrt(1 - r * r) for r in (y / 0.55, x / 0.75))
-        yield [(1.15 + s * 0.75 * along, y, 0.0) for s in (1.0, -1.0)]
-        yield [(1.15 + x, s * 0.55 * across, 0.0) for s in (1.0, -1.0)]
+# The whole theory in one picture: a body, and what the group makes of it.
 
 
 def _turned(axis: int, angle: float) -> Callable[[Sequence[float]], Vector]:
@@ -125,41 +110,6 @@ def displacement(v: Sequence[float]) -> Vector:
     return _turned(2, 20)(_turned(1, -42)(_turned(0, -50)(v)))
 
 
-def _racket_at(centre: Point, move: Callable[[Sequence[float]], Vector], letter: str) -> Scene:
-    """The racket, moved, with its axes, whose names follow ``letter``."""
-    view = View(centre, 15.5, -55, 24)
-
-    def stroke(points: Iterable[Vector], role: str, pen: str = "line") -> Stroke:
-        return Stroke(tuple(view.at(move(x)) for x in points), role, pen)
-
-    strokes = [stroke(HEAD, "body", "wash"), *(stroke(x, "body", "thin") for x in _strings())]
-    strokes += (stroke(x, "body") for x in (HEAD, *THROAT))
-    strokes += (stroke(HANDLE, "body", "wash"), stroke((*HANDLE, HANDLE[0]), "body"))
-    labels = []
-    for k, length in enumerate((2.3, 1.0, 1.0)):
-        tip, far = (view.at(move(scaled(length + more, UNITS[k]))) for more in (0, 0.22))
-        strokes += arrow(centre, tip, AXES[k])
-        labels.append(Label(f"{letter}e", str(k + 1), at=far))
-    outside = plus(scaled(1.12, POINT), UNITS[1], 0.24)
-    labels.append(Label(f"{letter}r", "i", at=view.at(move(outside))))
-    labels.append(Label("O", at=(centre[0] + 0.5, centre[1] - 3.2)))
-    dots = [Dot(centre, 0.6, "body"), Dot(view.at(move(POINT)), 0.75, "body")]
-    return panel((62, 46), strokes, labels, dots)
-
-
-def theory(_: Claims) -> Scene:
-    """The reference body, and the body at a time; the rotation that carries one to the other."""
-    both = beside(
-        _racket_at((22.0, 18.0), lambda v: (*v,), ""),
-        _racket_at((26.0, 14.0), displacement, "A"),
-        gap=0,
-    )
-    strokes, label = bow((52.0, 38.0), 24)
-    return panel(
-        (both.width, both.height + 2), (*both.strokes, *strokes), (*both.labels, label), both.dots
-    )
-
-
 def bow(start: Point, width: int) -> tuple[list[Stroke], Label]:
     """The arrow of A from the reference body to the body at a time, with its letter."""
     x, y = start
@@ -169,17 +119,24 @@ def bow(start: Point, width: int) -> tuple[list[Stroke], Label]:
 
 
 Figure = Callable[[Claims], Scene]
+PICTURES = Path(__file__).with_name("pictures")
+
+
+def recorded(file: Path) -> Scene:
+    """A figure of the course, as ``tests.support.lecture_figures`` draws it by the equations that
+    the text displays and rounds it, in hundredths of a millimetre: the same on every machine."""
+    told = json.loads(file.read_text(encoding="utf-8"))
+
+    def at(x: int, y: int) -> Point:
+        return x / 100, y / 100
+
+    strokes = (Stroke(tuple(map(at, x[::2], x[1::2])), *of) for *of, x in told["strokes"])
+    dots = (Dot(at(x, y), radius / 100, role) for role, radius, x, y in told["dots"])
+    labels = (replace(Label(*of), at=at(x, y)) for *of, x, y in told["labels"])
+    return panel(at(*told["size"]), strokes, labels, dots)
+
+
 FIGURES: dict[str, Figure] = {
-    "theory": theory,
-    "polhodes": polhodes,
-    "rolling": poinsot,
-    "tilts": tilts,
-    "paths": top_paths,
-    "tetrahedron": tetrahedron,
-    "ellipse": ellipse,
-    "three_groups": momenta_on_orbits,
-    "thrown": hammer_thrown,
-    "carried": carried_curve,
-    "stepped": momenta_in_steps,
+    x.stem: partial(lambda file, _: recorded(file), x) for x in sorted(PICTURES.glob("*.json"))
 }
-"""The figures by the labels of their blocks."""
+"""The figures of the course by the labels of their blocks."""

@@ -8,9 +8,9 @@ import math
 import random
 import re
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from fractions import Fraction
-from functools import reduce
+from functools import cached_property, reduce
 from typing import Any
 
 from ..check.values.arithmetic import is_matrix
@@ -20,9 +20,9 @@ from ..language.tree import Tree, replaced
 from ..language.values import elementary
 from ..views.language import LANGUAGES, Language, language
 from .lecture_text import ASKED, Block, Chapter, Entry, Formula, LectureError, tree
-from .motion_figures import Top
 from .own_body import turned
 from .sheets import Claims
+from .sheets import value as number
 
 RANGE = re.compile(r"(−?\d+)…(−?\d+)")
 LEAD = "In numbers:"
@@ -134,6 +134,45 @@ def _told(x: Any, words: Language) -> str:
 
 
 # Motions, by the equations that the text displays.
+
+TILT = tree("A₃₃")
+
+
+@dataclass(frozen=True)
+class Top:
+    """A top whose axis is at its ``upper`` tilt at first, by its cosine, and precesses at the rate
+    ``precession``; ``spin``: the momentum about the axis."""
+
+    claims: Claims
+    precession: float
+    parameters: Mapping[Tree, float]
+    spin: float
+    upper: float
+
+    @cached_property
+    def constants(self) -> dict[Tree, float]:
+        """Its parameters and what its motion keeps, by their letters."""
+        found = {**self.parameters, tree("𝒥₂"): self.spin, TILT: self.upper}
+        # the rate of precession is of degree 1 in 𝒥₁
+        slow, fast = (self._of("heavy.connection", found | {tree("𝒥₁"): x}) for x in (0.0, 1.0))
+        found[tree("𝒥₁")] = (self.precession - slow) / (fast - slow)
+        found[tree("h̃")] = self._of("heavy.effective", found)
+        return found
+
+    def _of(self, label: str, values: Mapping[Tree, float]) -> float:
+        return float(number(self.claims[label][0].rhs, values))
+
+    @cached_property
+    def lower(self) -> float:
+        """The cosine of the lower tilt: the other root of the cubic in the well, by halving."""
+        below, above = -1.0, self.upper - 1e-6
+        for _ in range(60):
+            middle = (below + above) / 2
+            if self._of("heavy.quadrature", self.constants | {TILT: middle}) > 0:
+                above = middle
+            else:
+                below = middle
+        return above
 
 
 def _turned(claims: Claims, known: Mapping[Tree, Tree]) -> float:

@@ -9,6 +9,7 @@ what it rests on::
     < so3.kernel  (34)           the steps that prove it, and the numbers of the note
     < said                       it says what letters mean, or what is supposed
     < solved                     a letter as a function of t, and its rate, which that has
+    < named                      a letter is a name of what stands beside it, in all formulas
     < open  English  |  French   proved here, and no step yet
 
 Where a reader's body has the place of the racket, the lines after a sentence that begin with ``~``
@@ -59,7 +60,7 @@ RELATION = re.compile(r" [=≈≠<>≤≥∈↦→] ")
 FRESH = "  $ "
 LABELLED = re.compile(r"(?:@([a-z_]+) )?(.*?)(  …)?")
 ASKED = re.compile(r" ([=≈]) #([a-z]*)$")
-SAID, SOLVED, OPEN = "said", "solved", "open"
+SAID, SOLVED, NAMED, OPEN = "said", "solved", "named", "open"
 
 
 class LectureError(Refused, ValueError):
@@ -121,12 +122,13 @@ Words = tuple[str | Formula, ...]
 
 @dataclass(frozen=True)
 class Tie:
-    """What an entry rests on: labels of steps, or ``said``, or ``solved``, or what is open, in each
-    language; and the numbers of the note."""
+    """What an entry rests on: labels of steps, or ``said``, ``solved`` or ``named``, or what is
+    open, in each language; and the numbers of the note."""
 
     labels: tuple[str, ...] = ()
     said: bool = False
     solved: bool = False
+    named: bool = False
     open: tuple[str, ...] = ()
     numbers: tuple[int, ...] = ()
 
@@ -327,6 +329,8 @@ def _tie(text: str, line: int, lines: _Lines) -> Tie:
         return Tie(said=True, numbers=of_note)
     if word == SOLVED:
         return Tie(solved=True)
+    if word == NAMED:
+        return Tie(named=True)
     if word == OPEN:
         reasons = tuple(x.strip() for x in rest.split("|"))
         if len(reasons) != len(LANGUAGES):

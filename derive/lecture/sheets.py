@@ -6,14 +6,12 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property, lru_cache, reduce
+from fractions import Fraction
+from functools import cached_property
 from itertools import pairwise
-from operator import itemgetter, truediv
-from typing import Any, TypeVar
-
-import numpy as np
 
 from ..language.tree import Tree
+from ..language.values import arithmetic
 from ..record.record import Equation
 from ..views.figure import drawn_body
 from ..views.figure.drawing import Dot, Label, Point, Scene, Stroke, arrow
@@ -25,7 +23,6 @@ AXES = ("first", "second", "third")
 Vector = tuple[float, ...]
 Claims = Mapping[str, Sequence[Equation]]
 """Label of a step → the equations of the display that rests on it."""
-State = TypeVar("State", bound=tuple[Any, ...])
 TICK, BESIDE = 1.0, 3.4
 """Half a mark of an axis; how far from the axis its numbers are, in millimetres."""
 TURN = tuple(2 * math.pi * k / 180 for k in range(181))
@@ -61,11 +58,6 @@ def circle(centre: Point, radius: float) -> Stroke:
     """A thin circle."""
     points = ((radius * math.cos(k), radius * math.sin(k)) for k in TURN)
     return Stroke(tuple(_moved(p, centre) for p in points), "support", "thin")
-
-
-def nearest(run: Sequence[State], times: Iterable[float]) -> list[State]:
-    """The states of a motion, each with its time first, that are nearest to some times."""
-    return [min(run, key=lambda x: abs(x[0] - t)) for t in times]
 
 
 def numbered(values: Iterable[float]) -> dict[float, str]:
@@ -198,58 +190,11 @@ def _runs(
     yield run, front(curve[-1])
 
 
-def value(t: Tree, of: Mapping[Tree, Any]) -> Any:
-    """The value of an expression of numbers, vectors and square matrices, by those ``of`` its
-    letters; ``⟨a, b⟩`` is the sum of the products of the components of both."""
-    return _function(t, frozenset(of))(of)
-
-
-@lru_cache(maxsize=256)
-def _function(t: Tree, letters: frozenset[Tree]) -> Callable[[Mapping[Tree, Any]], Any]:
-    """Letters → the value of an expression: a motion asks for it thousands of times."""
-    if t in letters:
-        return itemgetter(t)
-    if not isinstance(t, tuple):
-        number = float(t)
-        return lambda of: number
-    if t[0] == "pow":
-        base, exponent = _function(t[1], letters), t[2]
-        return lambda of: _power(base(of), exponent)
-    if t[0] not in OPERATIONS:
-        raise ValueError(f"no value for the operator {t[0]!r}")
-    operation, operands = OPERATIONS[t[0]], [_function(x, letters) for x in t[1:]]
-    if len(operands) == 1:
-        (only,) = operands
-        return lambda of: operation(only(of))
-    return lambda of: operation(*[x(of) for x in operands])
-
-
-def _power(base: Any, exponent: int) -> Any:
-    return np.linalg.matrix_power(base, exponent) if np.ndim(base) else base**exponent
-
-
-def _product(x: Any, y: Any) -> Any:
-    return x * y if isinstance(x, float) and isinstance(y, float) else np.dot(x, y)
-
-
-def hat(x: Any) -> Any:
-    """j(x), the matrix of the vector product with x on the left."""
-    return np.array([np.cross(x, e) for e in np.eye(3)]).T
-
-
-OPERATIONS: dict[str, Callable[..., Any]] = {
-    "add": lambda *x: sum(x),
-    "mul": lambda *x: reduce(_product, x),
-    "div": truediv,
-    "inv": lambda x: np.linalg.inv(x) if np.ndim(x) else 1 / x,
-    "T": np.transpose,
-    "tr": np.trace,
-    "wedge": np.cross,
-    "hat": hat,
-    "bracket": lambda x, y: x @ y - y @ x,
-    "inner": lambda x, y: np.sum(x * y),
-}
-"""Operator → its value by those of its operands."""
+def value(t: Tree, of: Mapping[Tree, float]) -> float:
+    """The value of an expression of numbers, by those ``of`` its letters."""
+    if t in of:
+        return of[t]
+    return float(arithmetic(t, lambda x: value(x, of)) if isinstance(t, tuple) else Fraction(t))
 
 
 def solved(

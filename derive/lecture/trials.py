@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
+from functools import reduce
 
 from ..check.checker import Checker, checker_of
 from ..check.fluid.fluid_checker import FluidChecker
 from ..language.derivatives import derivative
 from ..language.laurent import vanishes
 from ..language.show import show
-from ..language.tree import add, neg, replaced
+from ..language.tree import Tree, add, neg, replaced
 from ..record.record import ANY_GROUP, Derivation, Equation, Step
 from .lecture_text import Chapter, Entry, LectureError, rate_of
 
@@ -45,10 +46,10 @@ def tried(
     """The equations of the entries that rest on steps, each with the first step in whose company
     it holds; ``LectureError`` for one that holds in none.
 
-    A function of the time is put into its rate.  A step's company is what it supposes: its rule,
-    what is given, its hypotheses, its group; where that is any group, then the group of the
-    problem.  A step that supposes equations is company for its own left sides alone: under what it
-    supposes much else is true, as 0 = 0.
+    A function of the time is put into its rate, and for a letter that is a name what it names.  A
+    step's company is what it supposes: its rule, what is given, its hypotheses, its group; where
+    that is any group, then the group of the problem.  A step that supposes equations is company for
+    its own left sides alone: under what it supposes much else is true, as 0 = 0.
     """
     companies: dict[str, list[tuple[Checker | FluidChecker, Step]]] = {}
     for d in records.values():
@@ -56,10 +57,17 @@ def tried(
         for s in d.steps:
             several = dict.fromkeys((s, replace(s, scope=group)))
             companies.setdefault(s.label, [(checker, one) for one in several])
+    named = [x for x in chapter.entries if any(tie.named for tie in x.ties)]
+    names = {e.lhs: e.rhs for x in named for e in x.equations}
+
+    def put_back(t: Tree) -> Tree:
+        return reduce(lambda x, y: replaced(x, y, names[y]), names, t)
+
     for entry in chapter.entries:
         if entry.solved:
             _solved(chapter, entry)
-        for equation in entry.equations if entry.labels and not entry.solved else ():
+        for e in entry.equations if entry.labels and not entry.solved else ():
+            equation = Equation(put_back(e.lhs), put_back(e.rhs))
             company = [x for label in entry.labels for x in companies[label]]
             fit = [x for x in company if not _supposing(x[1]) or _of_step(equation, x[1])]
             yield _claim(chapter, entry, equation, fit)

@@ -5,9 +5,8 @@ import random
 import pytest
 
 from derive.language.show import show
-from derive.language.tree import nodes
 from derive.language.values import approximate
-from derive.lecture.common_factors import by_divisors, tidied
+from derive.lecture.common_factors import tidied
 from derive.lecture.lecture_text import tree
 from derive.record.record import Equation
 
@@ -56,12 +55,3 @@ def test_parameters_are_first_in_the_order_in_which_they_are_declared(text):
 @pytest.mark.parametrize("text", ["AZ + BZ", "⟨Ac, γ⟩ − Ũ", "½ Tr αJᾱ − Ũ"])
 def test_matrices_keep_their_places(text):
     assert tidied(Equation("x", tree(text))).rhs == tree(text)
-
-
-def test_a_polynomial_is_divided_by_what_divides_it():
-    product = tree("A₁₁² A₂₂ − A₁₁ A₁₂² + A₁₁ A₂₂ A₃₃ − A₁₂² A₃₃")
-    divisor, other = tree("A₁₁ A₂₂ − A₁₂²"), tree("A₁₁ + A₂₂")
-    found = by_divisors(product, [other, divisor])
-    assert show(found) == "(A₁₁ A₂₂ − A₁₂²)(A₁₁ + A₃₃)"
-    assert by_divisors(product, [other, product]) == product
-    assert divisor in nodes(found)

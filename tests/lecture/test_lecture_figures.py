@@ -11,36 +11,37 @@ from scipy.optimize import fsolve
 from scipy.spatial.transform import Rotation
 from scipy.special import ellipk
 
-from derive.lecture import document, figures, group_figures, motion_figures
+from derive.lecture import document, figures, motion_figures
 from derive.lecture.lecture_text import LectureError, parsed
 from derive.lecture.sheets import View
 from derive.problem.toml import problem_of
 from derive.views.language import LANGUAGES, language
+from tests.support import group_figures, lecture_figures
 from tests.support.lectures import CHAPTERS, records, shown
 from tests.support.library import module_of
 
 CLAIMS = document.claims_of(CHAPTERS)
 FIGURES = [b for c in CHAPTERS for b in c.blocks if b.kind == "figure"]
-I1, I3, P = motion_figures.PARAMETERS.values()
+I1, I3, P = lecture_figures.PARAMETERS.values()
 
 
 def top(kind):
-    return motion_figures.Top(CLAIMS, motion_figures.PRECESSIONS[kind])
+    return lecture_figures.top(CLAIMS, lecture_figures.PRECESSIONS[kind])
 
 
 def momenta(kind):
     """The rate of precession at the upper tilt, the momentum about the vertical, and the energy, by
     the angular velocity: ψ̇ of precession about e_z and what is left about the axis."""
-    rate, spin, u = motion_figures.PRECESSIONS[kind], motion_figures.SPIN, motion_figures.UPPER
+    rate, spin, u = lecture_figures.PRECESSIONS[kind], lecture_figures.SPIN, lecture_figures.UPPER
     about_vertical = I1 * rate * (1 - u * u) + spin * u
     return rate, about_vertical, I1 * rate**2 * (1 - u * u) / 2 + spin**2 / (2 * I3) + P * u
 
 
 def by_vectors(kind, end):
     """The axis n of the top by the law of its angular momentum, L′ = −P n × e_z."""
-    rate, u, up = momenta(kind)[0], motion_figures.UPPER, np.array([0, 0, 1.0])
+    rate, u, up = momenta(kind)[0], lecture_figures.UPPER, np.array([0, 0, 1.0])
     n = np.array([np.sqrt(1 - u * u), 0, u])
-    momentum = I1 * np.cross(n, np.cross(rate * up, n)) + motion_figures.SPIN * n
+    momentum = I1 * np.cross(n, np.cross(rate * up, n)) + lecture_figures.SPIN * n
 
     def moved(_, x):
         n, about = x[:3], x[3:]
@@ -50,7 +51,7 @@ def by_vectors(kind, end):
     return lambda t: run.sol(t)[:3]
 
 
-@pytest.mark.parametrize("kind", motion_figures.PRECESSIONS)
+@pytest.mark.parametrize("kind", lecture_figures.PRECESSIONS)
 def test_the_axis_moves_as_its_angular_momentum_says(kind):
     motion = top(kind).motion(20.0, 1600)
     axis = by_vectors(kind, 20.0)
@@ -59,15 +60,15 @@ def test_the_axis_moves_as_its_angular_momentum_says(kind):
         assert np.allclose([r * np.cos(angle), r * np.sin(angle), u], axis(t), rtol=0, atol=1e-5)
 
 
-@pytest.mark.parametrize("kind", motion_figures.PRECESSIONS)
+@pytest.mark.parametrize("kind", lecture_figures.PRECESSIONS)
 def test_the_turning_points_are_roots_of_the_cubic(kind):
     """(1 − u²)(2h − J₂²/I₃ − 2Pu) I₁ − (J₁ − uJ₂)², by the roots of polynomials."""
     _, about_vertical, energy = momenta(kind)
-    spin = motion_figures.SPIN
+    spin = lecture_figures.SPIN
     cubic = I1 * np.poly1d([-1, 0, 1]) * np.poly1d([-2 * P, 2 * energy - spin**2 / I3])
     cubic -= np.poly1d([-spin, about_vertical]) ** 2
     low, high, outside = sorted(cubic.roots.real)
-    assert np.allclose([low, high], [top(kind).lower, motion_figures.UPPER], rtol=0, atol=1e-9)
+    assert np.allclose([low, high], [top(kind).lower, lecture_figures.UPPER], rtol=0, atol=1e-9)
     assert outside > 1
     heights = [u for _, (u, *_) in top(kind).motion(20.0, 1600)]
     assert min(heights) == pytest.approx(low, abs=1e-3)
@@ -78,7 +79,7 @@ def test_the_turning_points_are_roots_of_the_cubic(kind):
 def test_waves_cusps_and_loops():
     """Along a path the angle grows, stands still with the height at cusps, or also falls."""
     backwards, slowest = {}, {}
-    for kind in motion_figures.PRECESSIONS:
+    for kind in lecture_figures.PRECESSIONS:
         path = np.array(top(kind).path())
         steps = np.diff(np.unwrap(np.arctan2(path[:, 1], path[:, 0])))
         backwards[kind] = (steps < -1e-6).sum()
@@ -134,21 +135,21 @@ def test_the_ellipsoid_rolls_as_the_emitted_code_says():
 
 def test_four_points_move_as_the_emitted_code_says():
     """The same points and springs as a problem; the volume stays, and θ is that of its walk."""
-    points = motion_figures.PLACES.tolist()
+    points = lecture_figures.PLACES.tolist()
     springs = [
-        {"kind": "spring", "between": [i, j], "stiffness": motion_figures.SPRING, "length": 0}
+        {"kind": "spring", "between": [i, j], "stiffness": lecture_figures.SPRING, "length": 0}
         for i in range(1, 5)
         for j in range(1, i)
     ]
-    listed = zip(motion_figures.MASSES, points, strict=True)
+    listed = zip(lecture_figures.MASSES, points, strict=True)
     data = {"name": "four", "group": "SL(3)", "potential": springs}
     data["point"] = [{"mass": m, "at": at} for m, at in listed]
     code = module_of(problem_of(data))
     basis = np.array(code.BASIS, float)
     rows = basis.reshape(len(basis), 9).T
-    zeta = np.linalg.lstsq(rows, motion_figures.VELOCITY.ravel(), rcond=None)[0]
-    motion = motion_figures.motion(
-        CLAIMS, motion_figures.moments(), motion_figures.VELOCITY, motion_figures.END
+    zeta = np.linalg.lstsq(rows, lecture_figures.VELOCITY.ravel(), rcond=None)[0]
+    motion = lecture_figures.motion(
+        CLAIMS, lecture_figures.moments(), lecture_figures.VELOCITY, lecture_figures.END
     )
     times, k = [t for t, *_ in motion], code.constants([])
     start, end = [*np.eye(3).ravel(), *zeta], (0, times[-1])
@@ -161,9 +162,9 @@ def test_four_points_move_as_the_emitted_code_says():
 
 def test_an_edge_of_the_tetrahedron_is_pale_where_a_point_just_before_it_is_inside():
     """A point of an edge is hidden if the way from it to the eye goes through the inside."""
-    points = motion_figures.PLACES
+    points = lecture_figures.PLACES
     for A in (np.eye(3), np.diag([3, 1, 1 / 3]), np.array([[1, 2, 0], [0, 1, 0], [1, 0, 1]])):
-        scene = motion_figures._placed(A, 0.0)
+        scene = lecture_figures._placed(A, 0.0)
         view = View((12.5, 17.5), 11.0, 25, 18)
         eye = np.array([view.depth(x) for x in np.eye(3)])
         moved = points @ A.T
@@ -186,8 +187,8 @@ def test_an_ellipse_of_fluid_keeps_its_area():
         theta = -2 * np.linalg.det(v) / (cofactors**2).sum()
         return np.concatenate([v.ravel(), theta * cofactors.ravel()])
 
-    J, strain = {"J": np.eye(2), "K": np.zeros((2, 2))}, motion_figures.STRAIN
-    motion = motion_figures.motion(CLAIMS, J, strain, motion_figures.SPREAD)
+    J, strain = {"J": np.eye(2), "K": np.zeros((2, 2))}, lecture_figures.STRAIN
+    motion = lecture_figures.motion(CLAIMS, J, strain, lecture_figures.SPREAD)
     times = [t for t, *_ in motion]
     start = [*np.eye(2).ravel(), *strain.ravel()]
     run = solve_ivp(rate, (0, times[-1]), start, t_eval=times, rtol=1e-11, atol=1e-13)
@@ -202,9 +203,11 @@ def test_the_racket_of_the_theory_is_turned_as_a_solid():
 
 
 @pytest.mark.parametrize("block", FIGURES, ids=[b.label for b in FIGURES])
-def test_a_figure_is_the_same_twice_and_fits_the_text(block):
+def test_a_figure_is_what_the_equations_draw_and_fits_the_text(block):
+    if block.label in lecture_figures.DRAWN:  # the other is a drawing
+        drawn = lecture_figures.written(lecture_figures.DRAWN[block.label](CLAIMS))
+        assert (figures.PICTURES / f"{block.label}.json").read_text(encoding="utf-8") == drawn
     scene = figures.FIGURES[block.label](CLAIMS)
-    assert scene == figures.FIGURES[block.label](CLAIMS)
     assert scene.width <= 127
     reach = [p for s in scene.strokes for p in s.points]
     reach += [p for x in scene.labels for p in (x.box[:2], x.box[2:])]
@@ -213,7 +216,8 @@ def test_a_figure_is_the_same_twice_and_fits_the_text(block):
 
 
 def test_every_figure_is_in_the_text_and_no_other():
-    assert {b.label for b in FIGURES} == {*figures.FIGURES}
+    labels = {b.label for b in FIGURES}
+    assert labels == {*figures.FIGURES} == {"theory", *lecture_figures.DRAWN}
 
 
 @pytest.mark.parametrize("lang", LANGUAGES)
@@ -235,15 +239,15 @@ def test_the_pictures_in_a_language(lang):
 def test_a_caption_says_the_numbers_of_its_figure():
     (tilts,) = (b for b in FIGURES if b.label == "tilts")
     said = {x.text for x in tilts.entries[1].formulas}
-    drawn = motion_figures.PARAMETERS | {"𝒥₂": motion_figures.SPIN}
+    drawn = lecture_figures.PARAMETERS | {"𝒥₂": lecture_figures.SPIN}
     assert {f"{x} = {Fraction(str(y))}" for x, y in drawn.items()} <= said
 
 
 @pytest.mark.parametrize(
     ("label", "starts"),
     [
-        ("tetrahedron", motion_figures.VELOCITY),
-        ("ellipse", motion_figures.STRAIN),
+        ("tetrahedron", lecture_figures.VELOCITY),
+        ("ellipse", lecture_figures.STRAIN),
         ("carried", [group_figures.CIRCLE[:2]]),
     ],
 )

@@ -8,7 +8,7 @@ import pytest
 from scipy.integrate import solve_ivp
 from scipy.special import ellipk
 
-from derive.command.lecturing import about, chapter_on, motion
+from derive.command.lecture_chapters import about, motion
 from derive.command.showing import derive
 from derive.lecture import document
 from derive.lecture.lecture_text import Given, parsed
@@ -17,7 +17,7 @@ from derive.lecture.ran_figure import Ran, label_of
 from derive.pipeline import walk
 from derive.problem.toml import problem_of
 from derive.views.language import LANGUAGES, language
-from tests.lecture.test_problem_chapter import alone
+from tests.lecture.test_problem_chapter import alone, chapter_on
 from tests.support.lectures import CHAPTERS, records, shown
 from tests.support.library import module_of
 

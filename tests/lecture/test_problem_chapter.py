@@ -7,14 +7,15 @@ import re
 import unicodedata
 from contextlib import suppress
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 import derive
+from derive.command import lecture_chapters, lecturing
 from derive.command.cli import main
-from derive.command.lecturing import RECORDS, chapter_on
 from derive.command.showing import derive as derived
 from derive.language.limits import Refused
 from derive.language.read import FormulaError
@@ -53,6 +54,8 @@ from tests.support import corpus
 from tests.support.lectures import by_itself
 from tests.support.walks import SEED
 
+RECORDS = lecturing.RECORDS
+chapter_on = partial(lecture_chapters.chapter_on, searches=lecturing.SEARCHES)
 NAMES = ("lagrange_top", "hung_bar", "sl3")
 
 

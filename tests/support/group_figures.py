@@ -14,11 +14,9 @@ from typing import Any
 
 import numpy as np
 
-from ..language.tree import Tree
-from ..views.figure.drawing import Dot, Label, Point, Scene, Stroke, arrow
-from ..views.figure.drawn_body import UNITS, scaled
-from .lecture_text import tree
-from .sheets import (
+from derive.language.tree import Tree
+from derive.lecture.lecture_text import tree
+from derive.lecture.sheets import (
     AXES,
     TURN,
     Claims,
@@ -27,13 +25,13 @@ from .sheets import (
     View,
     beside,
     euler,
-    hat,
-    nearest,
     numbered,
     panel,
     solved,
-    value,
 )  # fmt: skip
+from derive.views.figure.drawing import Dot, Label, Point, Scene, Stroke, arrow
+from derive.views.figure.drawn_body import UNITS, scaled
+from tests.support.picture_values import hat, nearest, value
 
 # The momentum of a Lagrangian that is half a quadratic form of the velocity, on three groups.
 
@@ -418,8 +416,8 @@ def _stepped(claims: Claims) -> Scene:
     for role, start in zip((AXES[0], AXES[2], AXES[1]), STARTED, strict=True):
         strokes += view.on_sphere(path_on_orbit(claims, ORBITS[0], *start), role, "thin")
         stepped = in_steps(claims, ORBITS[0].surface(*start), STEP, DOTS)
-        shown = (x for x in stepped if view.depth(x) > 0)
-        dots += [Dot(view.at(x), 0.55, role) for x in shown]
+        sized = zip(stepped, (1.0, *[0.55] * DOTS), strict=True)
+        dots += [Dot(view.at(x), size, role) for x, size in sized if view.depth(x) > 0]
     axes, labels = view.named_axes()
     return panel((50, 51), [*strokes, *axes], labels, dots)
 
