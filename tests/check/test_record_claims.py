@@ -62,6 +62,10 @@ def symmetries_of(name):
     return symmetric.found(name).record
 
 
+def trimmed(name):
+    return trims.trim(name).record
+
+
 RECORDS = {
     "euler_top": lambda: first_integrals("euler_top", 2).record,
     "lagrange_top": lambda: first_integrals("lagrange_top", 2).record,
@@ -94,18 +98,18 @@ RECORDS = {
     "no symmetries": lambda: derive(heavy("123", "t*A_11 + A_22 + A_12^2", "")).symmetries().record,
     "a tetrahedron": lambda: walks.record("sl3"),
     "a tetrahedron, displaced": lambda: walks.record("saff3"),
-    "a trim": lambda: trims.leaning().record,
-    "a trim, unstable": lambda: trims.upside_down().record,
-    "a trim, steady": lambda: trims.drifting().record,
-    "a trim, at a corner": lambda: trims.resting_in_air().record,
-    "a trim, found": lambda: trims.balanced().record,
-    "a trim, turned": lambda: trims.in_a_wind().record,
-    "a turn": lambda: turn(Fraction(15, 2), 1),
-    "a turn, enclosed": lambda: turn(5, Fraction(1, 2), 2, 9.80665),
-    "a trim, enclosed": lambda: trims.cubed().record,
-    "a trim, enclosed, turned": lambda: trims.nearly_upside_down().record,
-    "a trim, enclosed, on the right": lambda: trims.turned_in_space().record,
-    "a trim, enclosed, steady": lambda: trims.spun().record,
+    "a trim": partial(trimmed, "kept aside by a torque"),
+    "a trim, unstable": partial(trimmed, "what stands"),
+    "a trim, steady": partial(trimmed, "drifting aside"),
+    "a trim, at a corner": partial(trimmed, "at rest in air"),
+    "a trim, found": partial(trimmed, "the speed of a tilt"),
+    "a trim, turned": partial(trimmed, "leaning into a wind"),
+    "a turn": partial(trimmed, "leaning into a turn"),
+    "a turn, enclosed": partial(trimmed, "a helix"),
+    "a trim, enclosed": partial(trimmed, "a root of a cubic"),
+    "a trim, enclosed, turned": partial(trimmed, "nearly upside down"),
+    "a trim, enclosed, on the right": partial(trimmed, "bent in space"),
+    "a trim, enclosed, steady": partial(trimmed, "cubic friction"),
     "large": lambda: large("euler_top"),
     "large at defaults": lambda: large("euler_top", at_defaults=True),
 }
@@ -165,13 +169,6 @@ def small(request, monkeypatch):
     named = getattr(request.node, "callspec", None)
     if named and str(named.params.get("name", "")).startswith("large"):
         monkeypatch.setattr(claims_by_ranks, "MONOMIALS", MONOMIALS)
-
-
-def turn(*told):
-    """A steady turn of a drone, whose tests import from here."""
-    from tests.equilibria.test_steady_turns import turning
-
-    return turning(*told).record
 
 
 @cache

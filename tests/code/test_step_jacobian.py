@@ -49,11 +49,124 @@ at = [0, 0, 1]
 """A body in space with forces of both frames, and a drag that is no polynomial."""
 
 
+LIGHTER = f"""{codes.SPRUNG}
+[[output]]
+name = "place"
+kind = "place"
+at = [0, 0, 2]
+[[output]]
+name = "shaken"
+kind = "acceleration"
+at = [0, 0, 2]
+"""
+RIGHT = """
+name = "righthanded"
+group = "SO(3)"
+[lagrangian]
+L = "(zeta_1^2 + 2*zeta_2^2 + 3*zeta_3^2)/2 - A_33"
+trivialisation = "right"
+"""
+
+
+DAMPED_TOP = """
+name = "damped_top"
+[algebra]
+brackets = [[1, 2, 3, 1], [2, 3, 1, 1], [3, 1, 2, 1]]
+[parameters]
+I = 1.5
+k = 0.7
+[[advected]]
+name = "gamma"
+representation = "coadjoint"
+[lagrangian]
+L = "(I*zeta_1^2 + 2*zeta_2^2 + 3*zeta_3^2)/2 - gamma_3"
+[[force]]
+covector = ["-k*zeta_1", "-k*zeta_2*gamma_1^2", "u_2*zeta_1"]
+[[input]]
+name = "u"
+kind = "covector"
+[[output]]
+name = "y"
+y = ["zeta_1*gamma_2", "u_1 + gamma_3^2"]
+"""
+
+
+TILTED = """
+name = "tilted"
+group = "SO(3)"
+[lagrangian]
+L = "(zeta_1 - zeta_3)^2/2 + zeta_2^2 - 2*(A_31 + A_33)"
+[[input]]
+name = "F"
+kind = "force"
+at = [1, 0, 1]
+"""
+"""Its bob is at (1, 0, 1): what is held is no axis, and the velocity turns along it."""
+FROM_SPACE = """
+name = "from_space"
+group = "SO(3)"
+[lagrangian]
+L = "zeta_1^2 + zeta_2^2 - 2*A_33 + A_32"
+trivialisation = "right"
+"""
+"""ζ₃ turns space about its third axis, of which ℓ has what is seen from the body alone."""
+QUOTIENTS = {
+    "spherical_pendulum": ("spherical_pendulum", lambda g: g[:, 2]),
+    "tilted": (TILTED, lambda g: g @ [1, 0, 1]),
+    "rod": ("rod", lambda g: np.concatenate([g @ [0, 0, 1, 1], g @ [0, 0, -1, 1]])),
+    "from_space": (FROM_SPACE, lambda g: g[2]),
+}
+"""Problem, and what of g is one of the quotient: linear, so that of its rate that is the speed."""
+
+
+TURNED = ([0.8, -0.6, 0.6, 0.8, 1.5], [1.5], [0.3, -0.2])
+"""A state, parameters and inputs of a body in the plane."""
+FULL = (
+    [0.8, -0.6, 0, 0.6, 0.8, 0, 0, 0, 1, 0.1, -0.4, 0.3, 0.5, -0.3, 0.7, 0.2, 1.1, -0.6, 4.5],
+    [1.5],
+    [0.8],
+)
+"""The same of a body in space, with a mass in its state."""
+AT_ALGEBRA = [0.4, -0.7, 1.1, 0.3, 0.5, -0.8], [1.5, 0.7], [0.2, -0.3, 0.5]
+ON_QUOTIENT = [0.8, -0.6, 0, 0.6, 0.8, 0, 0, 0, 1, 0.5, -0.3], [], [0.8, -0.2, 0.4]
+OWN = {"pushed": PUSHED, "a mass": LIGHTER, "no element": DAMPED_TOP, "on the right": RIGHT}
+DERIVED = ("state", "inputs", "parameters", "outputs")
+AT = {"a mass": FULL, "no element": AT_ALGEBRA}
+
+
 def module(name, **options):
     """The Python of a problem with its steps and their derivatives."""
     inputs = module_of(name).INPUTS
     jacobian = tuple(x for x in VARIED["jacobian"] if x != "inputs" or inputs)
     return module_of(name, step=STEPS, jacobian=jacobian, **options)
+
+
+def prepared(name, **options):
+    """The Python of a problem, parameters, a state, inputs, and on which side it is."""
+    text = (OWN | {x: problem for x, (problem, _) in QUOTIENTS.items()}).get(name, name)
+    m = module(text, **options)
+    if name in AT:
+        x, p, u = map(np.array, AT[name])
+    else:
+        p, x, u, *_ = on_quotient(m) if name in QUOTIENTS else state(m)
+    return m, p, x, u, "right" if text in (RIGHT, FROM_SPACE) else "left"
+
+
+def on_quotient(m):
+    """Parameters, a state of which some velocities are held, inputs."""
+    rng = np.random.default_rng(3)
+    g = expm(hat(m, rng.normal(size=len(m.BASIS))))
+    start = {name: g[place] for name, place in element_names(m).items()}
+    drawn = zip(m.STATE, rng.normal(size=len(m.STATE)), strict=True)
+    x = np.array([start.get(name, y) for name, y in drawn])
+    p = [m.DEFAULTS[x] for x in m.PARAMETERS]
+    return p, x, rng.normal(size=len(m.INPUTS))
+
+
+def free(m):
+    """The coordinates that are not held, by their numbers in 𝔤, from 0."""
+    moves = [x for x in m.STATE if x.startswith(("zeta_", "w_"))]
+    return [int(x[-1]) - 1 + 3 * x.startswith("w") for x in moves]
 
 
 def matrix(m, x):
@@ -64,22 +177,43 @@ def matrix(m, x):
     return g
 
 
-def retracted(m, x, change):
-    """The state at g exp(eta) and zeta + delta zeta."""
-    d, y = len(m.BASIS), np.array(x)
-    g = matrix(m, x) @ expm(hat(m, change[:d]))
-    for name, place in element_names(m).items():
-        y[m.STATE.index(name)] = g[place]
-    y[-d:] += change[d:]
+def apart(m):
+    """What a state has of g, with its places in the matrix, where all else is, and which of 𝔤 are
+    not held."""
+    own = element_names(m) if any(x[0] == "A" for x in m.STATE) else {}
+    rest = [k for k, name in enumerate(m.STATE) if name not in own]
+    count = len(m.BASIS) if own else 0
+    return own, rest, free(m) if len(rest) < count else [*range(count)]
+
+
+def variations(m):
+    """How many numbers a variation has: those of 𝔤 in the place of those of g."""
+    _, rest, turning = apart(m)
+    return len(turning) + len(rest)
+
+
+def retracted(m, x, change, side="left"):
+    """The state at g exp(eta), or exp(eta) g, with all else displaced."""
+    (own, rest, turning), y = apart(m), np.array(x)
+    if own:
+        eta, g = np.zeros(len(m.BASIS)), matrix(m, x)
+        eta[turning] = change[: len(turning)]
+        turn = expm(hat(m, eta))
+        g = turn @ g if side == "right" else g @ turn
+        y[[m.STATE.index(name) for name in own]] = [g[place] for place in own.values()]
+    y[rest] += change[len(turning) :]
     return y
 
 
-def relative(m, x, y):
-    """(eta, delta zeta) from x to a y that is near it, to first order."""
-    d = len(m.BASIS)
-    moved = np.linalg.solve(matrix(m, x), matrix(m, y))
-    eta = np.linalg.lstsq(m.BASIS.reshape(d, -1).T, moved.ravel(), rcond=None)[0]
-    return np.concatenate([eta, y[-d:] - x[-d:]])
+def relative(m, x, y, side="left"):
+    """The variation from x to a y that is near it, to first order."""
+    (own, rest, _), eta = apart(m), []
+    if own:
+        g, h = matrix(m, x), matrix(m, y)
+        moved = h @ np.linalg.inv(g) if side == "right" else np.linalg.solve(g, h)
+        basis = m.BASIS.reshape(len(m.BASIS), -1).T
+        eta = np.linalg.lstsq(basis, (moved - np.eye(len(g))).ravel(), rcond=None)[0]
+    return np.concatenate([eta, (y - x)[rest]])
 
 
 def derivative(f, count):
@@ -109,31 +243,44 @@ def close(found, expected, tolerance=1e-9):
 
 
 @pytest.mark.parametrize("step", STEPS)
-@pytest.mark.parametrize("name", [*NAMES, PUSHED], ids=[*NAMES, "pushed"])
+@pytest.mark.parametrize("name", [*NAMES, *OWN])
 def test_the_derivative_is_that_of_the_step(name, step):
     """To 1e-9, against differences of two steps, which go where steps without derivatives go."""
-    m = module(name)
-    p, x, u, *_ = state(m)
-    k, h, d = m.constants(p), H[step], len(m.BASIS)
+    m, p, x, u, side = prepared(name)
+    k, h, count = m.constants(p), H[step], variations(m)
     motion = m.begin(0.3, x)
     status, phi, gamma = getattr(m, f"{step}_jacobian")(motion, k, u, h, 2)
     end = moved(m, step, x, k, u, h, 2)
     assert status == m.OK
     assert np.array_equal(motion.x, end)
-    by_state = derivative(
-        lambda e: relative(m, end, moved(m, step, retracted(m, x, e), k, u, h, 2)), 2 * d
-    )
-    by_inputs = derivative(
-        lambda e: relative(m, end, moved(m, step, x, k, u + e, h, 2)), len(m.INPUTS)
-    )
-    assert close(phi, by_state)
-    assert close(gamma, by_inputs)
-    assert gamma.shape == (2 * d, len(m.INPUTS))
+
+    def change(e, more):
+        y = moved(m, step, retracted(m, x, e, side), k, u + more, h, 2)
+        return relative(m, end, y, side)
+
+    assert phi.shape == (count, count)
+    assert gamma.shape == (count, len(m.INPUTS))
+    assert close(phi, derivative(lambda e: change(e, 0), count))
+    assert close(gamma, derivative(lambda e: change(np.zeros(count), e), len(m.INPUTS)))
+
+
+@pytest.mark.parametrize("name", AT)
+def test_the_derivatives_of_outputs_and_by_parameters(name):
+    m, (x, p, u) = module_of(OWN[name], jacobian=DERIVED), map(np.array, AT[name])
+    k, t = m.constants(p), 0.3
+    by_state = derivative(lambda e: m.outputs(t, retracted(m, x, e), k, u), variations(m))
+    assert close(m.jacobian_outputs(t, x, k, u), by_state)
+    by_inputs = derivative(lambda e: m.outputs(t, x, k, u + e), len(u))
+    assert close(m.jacobian_outputs_inputs(t, x, k, u), by_inputs)
+    rest = apart(m)[1]
+    by_parameters = derivative(lambda e: m.rhs(t, x, m.constants(p + e), u)[rest], len(p))
+    assert close(m.jacobian_parameters(t, x, p, u)[-len(rest) :], by_parameters)
 
 
 def linearised(m, x, k, u, t):
     """Φ and Γ by the linearised equations along the motion, as others integrate them."""
-    d, n, inputs = 2 * len(m.BASIS), len(x), len(m.INPUTS)
+    n, inputs = len(x), len(m.INPUTS)
+    d = len(m.jacobian(0.3, x, k, u)[1])
 
     def rates(t, y):
         dx, A = m.jacobian(0.3 + t, y[:n], k, u)
@@ -146,10 +293,10 @@ def linearised(m, x, k, u, t):
     return np.hsplit(end.reshape(d, d + inputs), [d])
 
 
-def test_a_step_that_is_exact_has_the_derivative_of_the_motion():
+@pytest.mark.parametrize("name", [*OWN, *QUOTIENTS])
+def test_a_step_that_is_exact_has_the_derivative_of_the_motion(name):
     """Of the linearised equations, in the same coordinates; of rk4 it is off as its error is."""
-    m = module(PUSHED)
-    p, x, u, *_ = state(m)
+    m, p, x, u, _ = prepared(name)
     k = m.constants(p)
     known = linearised(m, x, k, u, 0.2)
     for step, n, error in (("gauss", 2, 1e-9), ("vern9", 8, 1e-9), ("rk4", 4, 1e-2)):
@@ -194,26 +341,6 @@ def test_forms_of_the_state_have_one_derivative(form, name):
         assert close(a, b, 1e-10)
 
 
-RIGHT = """
-name = "righthanded"
-group = "SO(3)"
-[lagrangian]
-L = "(zeta_1^2 + 2*zeta_2^2 + 3*zeta_3^2)/2 - A_33"
-trivialisation = "right"
-"""
-
-
-def test_on_the_right_variations_are_those_of_space():
-    """δg = η g; of the linearised equations."""
-    m = module_of(RIGHT, step=("gauss",), jacobian=("state", "step"))
-    p, x, *_ = state(m)
-    k = m.constants(p)
-    known, _ = linearised(m, x, k, None, 0.2)
-    status, phi, gamma = m.gauss_jacobian(m.begin(0.0, x), k, None, 0.1, 2)
-    assert (status, gamma.shape) == (0, (6, 0))
-    assert close(phi, known)
-
-
 def test_inputs_that_are_a_function_of_time():
     """Γ is by what is added to them."""
     m = module(PUSHED)
@@ -233,109 +360,6 @@ def test_inputs_that_are_a_function_of_time():
             len(m.INPUTS),
         )
         assert close(gamma, known), step
-
-
-# ---------------------------------------------------------------- with a mass in the state
-
-TIP = np.array([0, 0, 2.0])
-LIGHTER = f"""{codes.SPRUNG}
-[[output]]
-name = "place"
-kind = "place"
-at = [0, 0, 2]
-[[output]]
-name = "shaken"
-kind = "acceleration"
-at = [0, 0, 2]
-"""
-USED_UP = {"step": STEPS, "jacobian": ("state", "inputs", "outputs", "step")}
-
-
-def by_hand():
-    """The rates of a lander, as somebody wrote them, for complex numbers too."""
-    text = codes.SPRUNG_CODE.replace("np.linalg.norm(d)", "np.sqrt(d @ d)")
-    exec(text, own := {})  # of this test alone
-    return own["f"]
-
-
-def variation(A, e):
-    """What the numbers of a state change by along (eta, delta zeta, delta m)."""
-    w, v, rest = e[:3], e[3:6], e[6:]
-    return np.concatenate([(A @ cross_matrix(w)).ravel(), A @ v, rest])
-
-
-def told(A, dx):
-    """(eta, delta zeta, delta m) of a change of the numbers of a state."""
-    turn = A.T @ dx[:9].reshape(3, 3)
-    w = [(turn[k, j] - turn[j, k]) / 2 for j, k in ((1, 2), (2, 0), (0, 1))]
-    return np.concatenate([w, A.T @ dx[9:12], dx[12:]])
-
-
-def rk4_by_hand(f, x, u, h):
-    """One step, and what it is off a rotation taken away to first order."""
-    a = f(x, u)
-    b = f(x + h / 2 * a, u)
-    c = f(x + h / 2 * b, u)
-    y = x + h / 6 * (a + 2 * b + 2 * c + f(x + h * c, u))
-    A = y[:9].reshape(3, 3)
-    return np.concatenate([(A @ (3 * np.eye(3) - A.T @ A) / 2).ravel(), y[9:]])
-
-
-def along(f, x, u):
-    """∂f/∂(eta, delta zeta, delta m) and ∂f/∂u by complex steps."""
-    A, tiny = x[:9].reshape(3, 3), 1e-30
-    turned = [f(x + 1j * tiny * variation(A, e), u + 0j).imag / tiny for e in np.eye(13)]
-    return np.array(turned).T, (f(x + 0j, u + 1j * tiny).imag / tiny)[:, None]
-
-
-def shaken(f, x, u):
-    """The place and the acceleration of the tip."""
-    A, w, v = x[:9].reshape(3, 3), x[12:15], x[15:18]
-    dw, dv = np.split(f(x, u)[12:18], 2)
-    a = dv + np.cross(w, v) + np.cross(dw, TIP) + np.cross(w, np.cross(w, TIP))
-    return np.concatenate([x[9:12] + A @ TIP, A @ a])
-
-
-def test_a_mass_of_the_state_is_varied():
-    """Against complex steps through equations that were written by hand."""
-    m, f = module_of(LIGHTER, **USED_UP), by_hand()
-    A = expm(cross_matrix([0.3, -0.5, 0.9]))
-    x = np.concatenate([A.ravel(), [0.1, -0.4, 0.3, 0.5, -0.3, 0.7, 0.2, 1.1, -0.6, 4.5]])
-    k, u = m.constants([1.5]), np.array([0.8])
-    assert close(m.rhs(0.3, x, k, u), f(x, u), 1e-13)
-    by_state, by_inputs = along(f, x, u)
-    assert close(m.jacobian_inputs(0.3, x, k, u), told(A, by_inputs[:, 0])[:, None], 1e-12)
-    C, D = along(lambda y, v: shaken(f, y, v), x, u)
-    assert close(m.outputs(0.3, x, k, u), shaken(f, x, u), 1e-13)
-    assert close(m.jacobian_outputs(0.3, x, k, u), C, 1e-12)
-    assert close(m.jacobian_outputs_inputs(0.3, x, k, u), D, 1e-12)
-    # of (eta, delta zeta) ↦ d/dt of it: eta turns with the body
-    turning = np.zeros((13, 13))
-    turning[:3, :3] = turning[3:6, 3:6] = cross_matrix(x[12:15])
-    turning[3:6, :3] = cross_matrix(x[15:18])
-    rates = np.vstack([np.eye(6, 13, 6) - turning[:6], by_state[12:]])
-    assert close(m.jacobian(0.3, x, k, u)[1], rates, 1e-12)
-    for step, h, n, inside, error in (
-        ("rk4", 0.02, 2, 1, 1e-9),
-        ("vern9", 0.05, 2, 100, 1e-9),
-        ("gauss", 0.05, 2, 100, 1e-9),
-    ):
-
-        def whole(y, v, h=h / inside, n=n * inside):
-            for _ in range(n):
-                y = rk4_by_hand(f, y, v, h)
-            return y
-
-        end = whole(x, u)
-        motion = m.begin(0.3, x)
-        status, phi, gamma = getattr(m, f"{step}_jacobian")(motion, k, u, h, n)
-        known = [
-            np.array([told(end[:9].reshape(3, 3), y) for y in S.T]).T for S in along(whole, x, u)
-        ]
-        assert status == m.OK
-        assert close(motion.x, end, error)
-        assert close(phi, known[0], error), step
-        assert close(gamma, known[1], error), step
 
 
 @pytest.mark.parametrize("attitude", ["matrix", "quaternion"])
@@ -361,81 +385,6 @@ def test_a_mass_of_the_state_is_moved_and_told(attitude):
     assert close(phi @ e, (ahead[0] - ahead[1]) / 2e-6, 1e-8)
 
 
-# ---------------------------------------------------------------- without g, and on a quotient
-
-EVERY = {"step": STEPS, "jacobian": ("state", "inputs", "parameters", "outputs", "step")}
-DAMPED_TOP = """
-name = "damped_top"
-[algebra]
-brackets = [[1, 2, 3, 1], [2, 3, 1, 1], [3, 1, 2, 1]]
-[parameters]
-I = 1.5
-k = 0.7
-[[advected]]
-name = "gamma"
-representation = "coadjoint"
-[lagrangian]
-L = "(I*zeta_1^2 + 2*zeta_2^2 + 3*zeta_3^2)/2 - gamma_3"
-[[force]]
-covector = ["-k*zeta_1", "-k*zeta_2*gamma_1^2", "u_2*zeta_1"]
-[[input]]
-name = "u"
-kind = "covector"
-[[output]]
-name = "y"
-y = ["zeta_1*gamma_2", "u_1 + gamma_3^2"]
-"""
-
-
-def top_by_hand(x, p, u):
-    """The equations of Euler and Poisson, γ the vertical seen from the body, with a drag."""
-    (w, gamma), (I1, k) = np.split(x, 2), p
-    momentum = np.array([I1, 2, 3]) * w
-    drag = np.array([-k * w[0], -k * w[1] * gamma[0] ** 2, u[1] * w[0]])
-    torque = np.cross(momentum, w) + np.cross([0, 0, 1], gamma) * -1 + drag + u
-    return np.concatenate([torque / np.array([I1, 2, 3]), np.cross(gamma, w)])
-
-
-def by_complex_steps(f, x):
-    """The derivative of f at x."""
-    tiny = 1e-30
-    return np.array([f(x + 1j * tiny * e).imag / tiny for e in np.eye(len(x))]).T
-
-
-def test_without_an_element_a_variation_is_of_the_numbers_of_the_state():
-    """Against complex steps through equations that were written by hand."""
-    m = module_of(DAMPED_TOP, **EVERY)
-    x, p, u = np.array([0.4, -0.7, 1.1, 0.3, 0.5, -0.8]), np.array([1.5, 0.7]), [0.2, -0.3, 0.5]
-    k, u = m.constants(p), np.array(u)
-    assert m.STATE == ("zeta_1", "zeta_2", "zeta_3", "gamma_1", "gamma_2", "gamma_3")
-    dx, A = m.jacobian(0.0, x, k, u)
-    assert close(dx, top_by_hand(x, p, u), 1e-14)
-    assert close(A, by_complex_steps(lambda x: top_by_hand(x, p, u), x), 1e-13)
-    by_inputs = by_complex_steps(lambda u: top_by_hand(x, p, u), u)
-    assert close(m.jacobian_inputs(0.0, x, k, u), by_inputs, 1e-13)
-    by_parameters = by_complex_steps(lambda p: top_by_hand(x, p, u), p)
-    assert close(m.jacobian_parameters(0.0, x, p, u), by_parameters, 1e-13)
-    C = by_complex_steps(lambda x: np.array([x[0] * x[4], u[0] + x[5] ** 2]), x)
-    assert close(m.jacobian_outputs(0.0, x, k, u), C, 1e-14)
-    assert close(m.jacobian_outputs_inputs(0.0, x, k, u), [[0, 0, 0], [1, 0, 0]], 1e-14)
-    for step, h, inside in (("rk4", 0.1, 1), ("vern9", 0.05, 100), ("gauss", 0.05, 100)):
-
-        def whole(x, u, h=h / inside, n=2 * inside):
-            for _ in range(n):
-                a = top_by_hand(x, p, u)
-                b = top_by_hand(x + h / 2 * a, p, u)
-                c = top_by_hand(x + h / 2 * b, p, u)
-                x = x + h / 6 * (a + 2 * b + 2 * c + top_by_hand(x + h * c, p, u))
-            return x
-
-        motion = m.begin(0.0, x)
-        status, phi, gamma = getattr(m, f"{step}_jacobian")(motion, k, u, h, 2)
-        assert status == m.OK
-        assert close(motion.x, whole(x, u), 1e-9)
-        assert close(phi, by_complex_steps(lambda x, f=whole: f(x, u), x)), step
-        assert close(gamma, by_complex_steps(lambda u, f=whole: f(x, u), u)), step
-
-
 def held_apart(m, x, side):
     """g and dg/dt of a state."""
     g, Z = matrix(m, x), hat(m, full(m, x))
@@ -451,68 +400,6 @@ def full(m, x):
     return found
 
 
-def free(m):
-    """The coordinates that are not held, by their numbers in 𝔤, from 0."""
-    moves = [x for x in m.STATE if x.startswith(("zeta_", "w_"))]
-    return [int(x[-1]) - 1 + 3 * x.startswith("w") for x in moves]
-
-
-def retracted_on_quotient(m, x, V, side="left"):
-    """The state at g exp(η), or exp(η) g, with ζ + δζ, where nothing of η is held."""
-    eta, y = np.zeros(len(m.BASIS)), np.array(x)
-    count = len(own := free(m))
-    eta[own] = V[:count]
-    turn = expm(hat(m, eta))
-    g = turn @ matrix(m, x) if side == "right" else matrix(m, x) @ turn
-    for name, place in element_names(m).items():
-        y[m.STATE.index(name)] = g[place]
-    y[-count:] += V[count:]
-    return y
-
-
-TILTED = """
-name = "tilted"
-group = "SO(3)"
-[lagrangian]
-L = "(zeta_1 - zeta_3)^2/2 + zeta_2^2 - 2*(A_31 + A_33)"
-[[input]]
-name = "F"
-kind = "force"
-at = [1, 0, 1]
-"""
-"""Its bob is at (1, 0, 1): what is held is no axis, and the velocity turns along it."""
-FROM_SPACE = """
-name = "from_space"
-group = "SO(3)"
-[lagrangian]
-L = "zeta_1^2 + zeta_2^2 - 2*A_33 + A_32"
-trivialisation = "right"
-"""
-"""ζ₃ turns space about its third axis, of which ℓ has what is seen from the body alone."""
-QUOTIENTS = {
-    "spherical_pendulum": ("spherical_pendulum", lambda g: g[:, 2]),
-    "tilted": (TILTED, lambda g: g @ [1, 0, 1]),
-    "rod": ("rod", lambda g: np.concatenate([g @ [0, 0, 1, 1], g @ [0, 0, -1, 1]])),
-    "from_space": (FROM_SPACE, lambda g: g[2]),
-}
-"""Problem, and what of g is one of the quotient: linear, so that of its rate that is the speed."""
-
-
-def prepared(problem, **options):
-    """The Python of a problem, a state, and inputs; on which side it is."""
-    m, rng = module_of(problem, **options), np.random.default_rng(3)
-    g = expm(hat(m, rng.normal(size=len(m.BASIS))))
-    start = {name: g[place] for name, place in element_names(m).items()}
-    drawn = zip(m.STATE, rng.normal(size=len(m.STATE)), strict=True)
-    x = np.array([start.get(name, y) for name, y in drawn])
-    side = "right" if problem == FROM_SPACE else "left"
-    return m, x, rng.normal(size=len(m.INPUTS)), side
-
-
-def constants(m):
-    return m.constants(m.DEFAULTS if m.PARAMETERS else [])
-
-
 @pytest.mark.parametrize(
     ("name", "attitude"),
     [*((x, "matrix") for x in QUOTIENTS), ("tilted", "quaternion"), ("rod", "quaternion")],
@@ -521,16 +408,13 @@ def test_on_a_quotient_it_is_of_what_is_seen(name, attitude):
     """Where the body is, and how it moves, after two steps, by differences; on both sides as what V
     does to it."""
     problem, told = QUOTIENTS[name]
-    plain, x, u, side = prepared(problem)
-    m, count = (
-        module_of(problem, step=STEPS, jacobian="step", attitude=attitude),
-        2 * len(free(plain)),
-    )
+    plain, p, x, u, side = prepared(name)
+    m, count = module(problem, attitude=attitude), variations(plain)
     if attitude == "quaternion":
         x, inside, outside = plain.project(x), m.from_matrix, m.to_matrix
     else:
         inside = outside = np.array
-    k = constants(m)
+    k = m.constants(p)
 
     def seen(x):
         return np.concatenate([told(y) for y in held_apart(plain, x, side)])
@@ -542,30 +426,13 @@ def test_on_a_quotient_it_is_of_what_is_seen(name, attitude):
         end = outside(motion.x)
 
         def after(V, u=u, step=step):
-            y = inside(retracted_on_quotient(plain, x, V, side))
+            y = inside(retracted(plain, x, V, side))
             return seen(outside(moved(m, step, y, k, u, H[step], 2)))
 
-        there = derivative(lambda V, y=end: seen(retracted_on_quotient(plain, y, V, side)), count)
+        there = derivative(lambda V, y=end: seen(retracted(plain, y, V, side)), count)
         assert close(there @ phi, derivative(after, count)), step
         by_inputs = derivative(lambda e, f=after: f(np.zeros(count), u + e), len(u))
         assert close(there @ gamma, by_inputs), step
-
-
-@pytest.mark.parametrize("problem", [x for x, _ in QUOTIENTS.values()], ids=[*QUOTIENTS])
-def test_on_a_quotient_the_linearised_equations_are_those_of_the_motion(problem):
-    """Φ by them, and by an exact step."""
-    m, x, u, _ = prepared(problem, step="gauss", jacobian=("state", "step"))
-    k, n = constants(m), 2 * len(free(m))
-
-    def rates(t, y):
-        dx, A = m.jacobian(t, y[: len(x)], k, u)
-        return np.concatenate([dx, (A @ y[len(x) :].reshape(n, n)).ravel()])
-
-    begun = np.concatenate([x, np.eye(n).ravel()])
-    end = solve_ivp(rates, (0, 0.2), begun, "DOP853", rtol=1e-12, atol=1e-12).y[len(x) :, -1]
-    status, phi, _ = m.gauss_jacobian(m.begin(0.0, x), k, u, 0.1, 2)
-    assert status == m.OK
-    assert close(phi, end.reshape(n, n))
 
 
 # ---------------------------------------------------------------- in each language
@@ -590,16 +457,6 @@ name = "F"
 kind = "force"
 at = [0, 1]
 """
-TURNED = ([0.8, -0.6, 0.6, 0.8, 1.5], [1.5], [0.3, -0.2])
-"""A state, parameters and inputs of a body in the plane."""
-FULL = (
-    [0.8, -0.6, 0, 0.6, 0.8, 0, 0, 0, 1, 0.1, -0.4, 0.3, 0.5, -0.3, 0.7, 0.2, 1.1, -0.6, 4.5],
-    [1.5],
-    [0.8],
-)
-"""The same of a body in space, with a mass in its state."""
-AT_ALGEBRA = [0.4, -0.7, 1.1, 0.3, 0.5, -0.8], [1.5, 0.7], [0.2, -0.3, 0.5]
-ON_QUOTIENT = [0.8, -0.6, 0, 0.6, 0.8, 0, 0, 0, 1, 0.5, -0.3], [], [0.8, -0.2, 0.4]
 IN_LANGUAGES = {
     "": (SWING, TURNED, 2 * (2 + 2)),
     "with a mass": (codes.LANDER, FULL, 13 * (13 + 1)),

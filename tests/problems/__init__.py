@@ -611,6 +611,67 @@ PROBLEMS |= {
     "SL(2) outputs": read_off("SL(2)", 2, POWERS),
     "SO(2) outputs": read_off("SO(2)", 2, RATES),
 }
+# all that acts, each with its power; a potential that knows the time, alone and beside one that
+# does not, with one that acts; the power of an input is no P_thrust, which is a parameter
+ACTING = """
+name = "test"
+group = "SE(3)"
+parameters = { c = 0.4, k = 0.15, s = 2.5, P_thrust = 9.81 }
+[[potential]]
+kind = "gravity"
+g = ["sin(t)", 0, "-P_thrust*(1 + t/3)"]
+[[potential]]
+kind = "spring"
+at = [0, 0, -0.1]
+anchor = ["cos(t)", "t^2", 2]
+stiffness = "s*(2 + sin(3*t))"
+length = "1 + t/5"
+[[input]]
+name = "thrust"
+kind = "force"
+at = [0.2, 0.1, 0.05]
+frame = "body"
+direction = [0, 0, 1]
+moment = [0, 0, 0.3]
+[[input]]
+name = "line"
+kind = "force"
+at = [0, 0.1, -0.2]
+[[input]]
+name = "twist"
+kind = "torque"
+[[input]]
+name = "u"
+kind = "covector"
+[[force]]
+name = "drag"
+at = [0.1, 0, 0.02]
+force = ["-c*sqrt(v_1^2 + v_2^2 + v_3^2)*v_1", "-c*v_2", "-c*abs(v_3)*v_3"]
+[[damping]]
+coefficient = "k"
+at = [-0.1, 0.05, 0]
+[[output]]
+name = "whole"
+kind = "power"
+"""
+ACTING += "".join(
+    f'[[output]]\nname = "of_{x}"\nkind = "power"\nof = "{x}"\n'
+    for x in ("thrust", "line", "twist", "u", "drag", "damping")
+)
+PROBLEMS["SE(3) powers outputs"] = ACTING + MASSES
+PROBLEMS["SL(3) one power outputs"] = (
+    """
+name = "test"
+group = "SL(3)"
+potential = [
+  { kind = "spring", between = [1, 2], stiffness = "1 + t^3" },
+  { kind = "spring", between = [2, 3], stiffness = 3 },
+]
+input = [{ name = "line", kind = "force", at = [0, 1, -2] }]
+output = [{ name = "whole", kind = "power" }, { name = "of_line", kind = "power", of = "line" }]
+"""
+    + MASSES
+)
 PROBLEMS["SE(2) outputs"] = """
 name = "test"
 group = "SE(2)"

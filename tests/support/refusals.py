@@ -392,6 +392,7 @@ TABLE = {
         *(f"discrete {x}" for x in ("so3", "se3", "sl3", "gl3", "saff3", *DRIVEN_ON)),
         *(f"ellipsoid {x}" for x in ("in space", "in a plane", "in layers", "turned")),
         *("ellipsoid in layers of a plane", "torus 3", "torus stirred"),
+        "points SE(3) powers outputs",
         *(f"symmetries {x}" for x in ("free", "planet", "driven", "landau", "spatial")),
         *(f"reduced {x}" for x in ("lagrange_top", "charged_body", "spatial")),
     ),

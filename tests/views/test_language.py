@@ -3,7 +3,6 @@
 import ast
 import re
 import tomllib
-from fractions import Fraction
 from functools import cache
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -34,23 +33,11 @@ from derive.views.language import (
 from derive.views.paper.findings import PAPER
 from derive.views.printing.sentences import FORMULA
 from derive.views.text import markdown, step_markdown, step_text, text
-from tests.equilibria.test_steady_turns import turning
 from tests.support import corpus, symmetric, walks
 from tests.support.cached import on_disk
 from tests.support.kinds import examples
 from tests.support.lagrangians import every_record, heisenberg, two_algebras
-from tests.support.trims import (
-    balanced,
-    cubed,
-    drifting,
-    in_a_wind,
-    leaning,
-    nearly_upside_down,
-    resting_in_air,
-    spun,
-    turned_in_space,
-    upside_down,
-)
+from tests.support.trims import trim
 
 ROOT = Path(__file__).parents[2] / "derive"
 ENTRIES = [{k: texts.unmarked(v) for k, v in x.items()} for x in catalogue_entries()]
@@ -209,6 +196,13 @@ OWN = [
 ]
 
 
+TRIMS = (
+    *("kept aside by a torque", "what stands", "drifting aside", "at rest in air"),
+    *("the speed of a tilt", "leaning into a wind", "a root of a cubic", "nearly upside down"),
+    *("bent in space", "cubic friction", "leaning into a turn", "a helix"),
+)
+
+
 @on_disk
 def all_records():
     """The ready-made problems, some with all kinds of forces, and the own ones."""
@@ -217,11 +211,7 @@ def all_records():
     problems += [problem_of({"name": "own"} | x) for x in OWN]
     told = [*map(walks.record, ready_made()), *map(corpus.record, OF_THE_CORPUS)]
     told.append(symmetries(walks.problem("gl3"), walks.record("gl3")).record)
-    trims = (leaning, upside_down, drifting, resting_in_air, balanced, in_a_wind)
-    trims += (cubed, nearly_upside_down, turned_in_space, spun)
-    told += [found().record for found in trims]
-    turns = [turning(Fraction(15, 2), 1), turning(5, Fraction(1, 2), 2, 9.80665)]
-    told += [found.record for found in turns]
+    told += [trim(x).record for x in TRIMS]
     told += [families(x)[1] for x in IN_LETTERS]
     return [*told, *every_record(), *map(walk, problems)]
 

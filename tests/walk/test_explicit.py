@@ -1,5 +1,7 @@
 """The answer: equations in coordinates with a problem's own numbers, beside other roads."""
 
+import math
+from functools import reduce
 from random import Random
 
 import numpy as np
@@ -14,7 +16,6 @@ from derive.pipeline import walk
 from derive.problem.toml import problem_of
 from tests.support.corpus import record
 from tests.support.walks import record as ready
-from tests.walk.test_power_apart import value
 
 SHIFTS = [[[0, 0, 1], [0, 0, 0], [0, 0, 0]], [[0, 0, 0], [0, 0, 1], [0, 0, 0]]]
 TRANSLATIONS = {
@@ -50,6 +51,41 @@ def told(d):
 
 def said(d):
     return " ".join(s.message for s in answer(d).prose)
+
+
+def value(t, known):
+    """A tree in floats."""
+    if isinstance(t, (str, tuple)) and t in known:
+        return known[t]
+    if not isinstance(t, tuple):
+        return float(t)
+    if t[0] == "fun":
+        return {"sin": math.sin, "cos": math.cos, "sqrt": math.sqrt}[t[1]](value(t[2], known))
+    if t[0] == "pow":
+        return value(t[1], known) ** t[2]
+    parts = [value(x, known) for x in t[1:]]
+    match t[0]:
+        case "add":
+            return sum(parts)
+        case "mul":
+            return reduce(np.dot, parts)
+        case "div":
+            return parts[0] / parts[1]
+        case "inner":
+            return parts[0] @ parts[1]
+        case "wedge":
+            return np.cross(*parts)
+        case "T":
+            return parts[0].T
+        case "tr":
+            return np.trace(parts[0])
+        case "norm2":
+            return parts[0] @ parts[0]
+        case "row":
+            return parts[0]
+        case "matrix":
+            return np.array(parts)
+    raise ValueError(t)
 
 
 def test_a_nut_on_a_screw_falls_with_a_constant():

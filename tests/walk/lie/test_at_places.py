@@ -41,7 +41,9 @@ PUSHED = {
         {"name": "north", "kind": "direction", "direction": [1, 0, "b"], "frame": "body"},
         {"name": "mast", "kind": "direction", "direction": [1, 0, 2]},
         {"name": "range", "kind": "distance", "at": [1, 0, "b"], "to": [0, "b", 2]},
-        {"name": "power", "at": [0, 0, 1], "y": ["r_3*v_1 + t", "port*v_2"]},
+        {"name": "swept", "at": [0, 0, 1], "y": ["r_3*v_1 + t", "port*v_2"]},
+        {"name": "whole", "kind": "power"},
+        {"name": "towed", "kind": "power", "of": "tow"},
     ],
 }  # fmt: skip
 
