@@ -87,13 +87,13 @@ class Play:
         """The equations of motion, and the walk as the HTML of ``derive walk FILE --format html
         --fragment``, piece by piece."""
         from derive.views.answer import answer_mathml
-        from derive.views.answer import told as road
         from derive.views.arrows import arrows, legend, marks
         from derive.views.html import fragment
         from derive.views.language import language
         from derive.views.latex import anchor
         from derive.views.layout import as_read
         from derive.views.outline import system, title
+        from derive.views.stations import told as road
 
         with self.refusals():
             self.read(text)

@@ -30,7 +30,6 @@ from derive.views.answer import (
     steps_of_answer,
     summary,
 )
-from derive.views.answer import told as stations
 from derive.views.html import html
 from derive.views.language import ENGLISH, LANGUAGES, language
 from derive.views.latex import latex
@@ -39,6 +38,7 @@ from derive.views.outline import assumed, moving, system
 from derive.views.printing.signs import tex_text
 from derive.views.printing.typeset import display_width
 from derive.views.rendering import FORMATS, pdf, render
+from derive.views.stations import told as stations
 from tests.support import walks
 from tests.support.needs import needs
 from tests.support.walks import FLUIDS, record
