@@ -29,6 +29,7 @@ from .fields import (
     called_here,
     coordinates,
     known_in_lagrangian,
+    named_tables,
     names_in_forces,
     out_of_place,
     tables,
@@ -294,10 +295,7 @@ def _without_points(
 
 def _require_covectors(data: Mapping[str, Any]) -> None:
     """``ProblemError`` where something acts at a place, which an algebra does not move."""
-    acting = {f"force {k}": x for k, x in enumerate(tables(data, "force"), 1)}
-    acting |= {f"input {k}": x for k, x in enumerate(tables(data, "input"), 1)}
-    acting |= {f"damping {k}": x for k, x in enumerate(tables(data, "damping"), 1)}
-    for key, x in acting.items():
+    for key, x in named_tables(data, "force", "input", "damping").items():
         if "covector" not in x and x.get("kind") not in ("covector", "scalar"):
             other = "[[force]] covector" if key.startswith("damping") else "a covector"
             raise ProblemError(f"{key}: an algebra moves no places: give {other}")
