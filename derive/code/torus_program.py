@@ -203,7 +203,7 @@ def torus_program(
 
 def require_on_torus(d: Derivation, torus: TorusLattice, chosen: Options) -> None:
     """``LoweringError`` for an option that is not written on the torus."""
-    where = "on the torus, whose state is the vorticity alone"
+    where = "on the torus, whose state is the vorticity alone (--jacobian state is ∂(dx/dt)/∂x)"
     require_options(d, chosen, where, "state", "inputs", "parameters")
     require_columns(d, chosen)
     if "parameters" in chosen.jacobian and not EmittedForcing.of(d, torus).parameters:

@@ -49,7 +49,7 @@ from ..schema.motion_kinds import (
 )
 from ..schema.potential_kinds import Potential, kinds
 from ..schema.table import ACTIONS, Slot, Table
-from .fields import angular_velocity, tables, velocity_at_place
+from .fields import angular_velocity, named_tables, tables, velocity_at_place
 from .file_reader import FileReader
 from .inertia import is_negative
 from .problem import ProblemError, SolidError
@@ -161,8 +161,7 @@ Forces = tuple[tuple[Potential, ...], tuple[Input, ...], tuple[AnyDamping, ...],
 def forces(data: Mapping[str, object], reader: FileReader) -> Forces:
     """All of them; there is one of what may be there once."""
     potentials, inputs, damping, stated = (
-        {f"{key} {k}": x for k, x in enumerate(tables(data, key), 1)}
-        for key in ("potential", "input", "damping", "force")
+        named_tables(data, key) for key in ("potential", "input", "damping", "force")
     )
     acting = [w for w, x in inputs.items() if x.get("kind") in (ForceInput.kind, TorqueInput.kind)]
     for where in (*potentials, *acting, *damping, *stated) if reader.group is None else ():
@@ -205,7 +204,7 @@ def outputs(
 ) -> tuple[Output, ...]:
     """What is read off a motion; a table of expressions has no kind."""
     reader.potentials = potentials
-    tabled = {f"output {k}": x for k, x in enumerate(tables(data, "output"), 1)}
+    tabled = named_tables(data, "output")
     for where in tabled if reader.group is None else ():
         raise ProblemError(f"{where}: a text about any group has no motion to read this off")
     kind, reader.observing = ExpressionOutput.kind, True

@@ -32,6 +32,11 @@ def tables(data: Mapping[str, Any], key: str) -> list[Mapping[str, Any]]:
     return tables
 
 
+def named_tables(data: Mapping[str, Any], *keys: str) -> dict[str, Mapping[str, Any]]:
+    """Those of some arrays by what messages call them, as "force 2"."""
+    return {f"{key} {k}": x for key in keys for k, x in enumerate(tables(data, key), 1)}
+
+
 TOLD = ("name", "title", "kind", "unit", "meaning")
 """Keys that have no expression."""
 

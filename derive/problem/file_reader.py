@@ -188,7 +188,8 @@ class FileReader(ForceReader):
         if need == "no turning" and (g.factors or g.turns_space):
             raise ProblemError(
                 f"{where}: {kind} is for one group that is walked in matrices, as SL(3), SAff(3) "
-                f"or SE(2), and not for {g.name}; give springs to the body's points"
+                f"or SE(2), and not for {g.name}; give springs to the body's points, or L in an "
+                "[inertia] table, with this potential as its U"
             )
         if need == "volumes" and (g.factors or "unimodular" in g.relations):
             raise ProblemError(

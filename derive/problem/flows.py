@@ -30,7 +30,7 @@ from ..language.tree import Tree, add, mul, neg, nodes
 from ..schema.body_kinds import Body, GivenBody, MomentBody, Moments, Place, PointBody, by_block
 from ..schema.force_kinds import Flow, Input, StatedForce
 from .entries_on_orbit import vanishes, wedge
-from .fields import angular_velocity, names_in_forces, tables
+from .fields import angular_velocity, named_tables, names_in_forces
 from .file_reader import FileReader
 from .problem import Problem, ProblemError, masses_of_state, points_of
 
@@ -41,8 +41,7 @@ def flows_of(
     data: Mapping[str, Any], body: Body | None, reader: FileReader, inputs: Sequence[Input]
 ) -> tuple[tuple[Flow, ...], tuple[StatedForce, ...]]:
     """The flows of a file, and how they push."""
-    listed = enumerate(tables(data, "flow"), 1)
-    flows = tuple(reader.typed(Flow, x, f"flow {k}") for k, x in listed)
+    flows = tuple(reader.typed(Flow, x, w) for w, x in named_tables(data, "flow").items())
     stored = masses_of_state(flows)
     for k, x in enumerate(flows, 1):
         if x.mass and x.mass not in reader.parameters:

@@ -36,7 +36,7 @@ from .entries_on_orbit import (
     vanishes_on,
     with_constant_entries,
 )
-from .fields import coordinates, no_entry, tables, undeclared, used_at
+from .fields import coordinates, named_tables, no_entry, undeclared, used_at
 from .file_reader import FileReader
 from .motion_tables import KEYS as MOTION
 from .motion_tables import motion_fields
@@ -208,6 +208,11 @@ def _sparse(table: Sequence[Matrix]) -> structure.Brackets:
 
 KEYS = ("name", "title", "parameters", "algebra", "inertia", "input", "damping", *MOTION)
 """The keys of such a file."""
+INSTEAD = {
+    "force": "what acts is a sum over the lattice: give an [[input]], a [[signal]], a [[damping]]",
+    "output": "what is read there are the numbers of its state, columns of each run",
+}
+"""What to do in place of a table that others have."""
 
 
 def on_torus(data: Mapping[str, Any]) -> bool:
@@ -223,11 +228,7 @@ def torus_problem(
     for key in data:
         if key not in KEYS:
             known = f"on the torus there are {', '.join(KEYS)} alone"
-            acts = key == "force"
-            raise ProblemError(
-                f"key {key!r}: {known}; leave it out"
-                + ", or give the force as an [[input]], and in time by a [[signal]]" * acts
-            )
+            raise ProblemError(f"key {key!r}: {known}; {INSTEAD.get(key, 'leave it out')}")
     algebra = reader.typed(kind.StatedTorus, data["algebra"], "algebra")
     if algebra.of != "torus":
         raise ProblemError(f'algebra, of: with N it is "torus", not {algebra.of[:40]!r}')
@@ -260,16 +261,12 @@ def _forcing(
 ) -> tuple[tuple[CovectorInput, ...], tuple[LaplacianDamping, ...]]:
     """What acts on the vorticity from outside dϖ: a covector, and multiples of powers of −Δ."""
     known = {CovectorInput.kind: CovectorInput}
-    inputs = tuple(
-        reader.one_of(known, x, f"input {k}") for k, x in enumerate(tables(data, "input"), 1)
-    )
+    inputs = tuple(reader.one_of(known, x, w) for w, x in named_tables(data, "input").items())
     if len(inputs) > 1:
         raise ProblemError("key 'input': one covector holds every component; give one such table")
     reader.distinct(inputs, reader.parameters)
     own = {LaplacianDamping.kind: LaplacianDamping}
-    damping = tuple(
-        reader.one_of(own, x, f"damping {k}") for k, x in enumerate(tables(data, "damping"), 1)
-    )
+    damping = tuple(reader.one_of(own, x, w) for w, x in named_tables(data, "damping").items())
     for k, x in enumerate(damping, 1):
         where = f"damping {k}, coefficient"
         if any(isinstance(t, tuple) and t[0] == "fun" for t in nodes(x.coefficient)):

@@ -27,6 +27,7 @@ from .fields import (
     entries,
     is_entry,
     known_in_lagrangian,
+    named_tables,
     state_names,
     tables,
     undeclared,
@@ -104,9 +105,7 @@ def motion_fields(data: Mapping[str, Any], reader: FileReader) -> dict[str, Any]
     said = next((key for key in KEYS if key in data), "")
     if said and not reader.group and "algebra" not in data:
         raise ProblemError(f"key {said!r}: a text about any group has no motion to follow")
-    events = tuple(
-        reader.typed(Event, x, f"event {k}") for k, x in enumerate(tables(data, "event"), 1)
-    )
+    events = tuple(reader.typed(Event, x, w) for w, x in named_tables(data, "event").items())
     for k, x in enumerate(events, 1):
         still = {*reader.parameters} - {table.get("mass") for table in tables(data, "flow")}
         moving = [name for name in names(x.when) if name not in still]

@@ -281,10 +281,7 @@ def _without_points(
 
 def _require_covectors(data: Mapping[str, Any]) -> None:
     """``ProblemError`` where something acts at a place, which an algebra does not move."""
-    acting = {f"force {k}": x for k, x in enumerate(fields.tables(data, "force"), 1)}
-    acting |= {f"input {k}": x for k, x in enumerate(fields.tables(data, "input"), 1)}
-    acting |= {f"damping {k}": x for k, x in enumerate(fields.tables(data, "damping"), 1)}
-    for key, x in acting.items():
+    for key, x in fields.named_tables(data, "force", "input", "damping").items():
         if "covector" not in x and x.get("kind") not in ("covector", "scalar"):
             other = "[[force]] covector" if key.startswith("damping") else "a covector"
             raise ProblemError(f"{key}: an algebra moves no places: give {other}")

@@ -170,11 +170,12 @@ def nearest(word: str, known: Collection[str]) -> str:
     return did_you_mean(other if other in known else near_name(word, known), "; ")
 
 
-def hint(word: str, known: Collection[str]) -> str:
-    """Where a word stands that means nothing here, as of :data:`ELSEWHERE`; or else the nearest."""
+def hint(word: str, known: Collection[str], said: Collection[str] = ()) -> str:
+    """Where a word stands that means nothing here, as of :data:`ELSEWHERE`; or else the nearest of
+    those that are not yet said."""
     away = word in ELSEWHERE and OTHER_WORDS.get(word) not in known and "default" not in known
     away = away and (word not in OF_FORCES or not {"frame", "g"}.isdisjoint(known))
-    return f"; {ELSEWHERE[word]}" if away else nearest(word, known)
+    return f"; {ELSEWHERE[word]}" if away else nearest(word, sorted({*known} - {*said}))
 
 
 @dataclass_transform(frozen_default=True, kw_only_default=True)

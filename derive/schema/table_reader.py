@@ -69,7 +69,7 @@ class TableReader(ABC):
         """Refuse a key that has no meaning, with the nearest that has one."""
         for key in table:
             if key not in keys:
-                told = f"{hint(key, keys)} (known: {', '.join(sorted(keys))})"
+                told = f"{hint(key, keys, table)} (known: {', '.join(sorted(keys))})"
                 raise self.fail(f"{where}: unknown key {key[:40]!r}{told}")
 
     def parameter(self, name: str, about: Any) -> Parameter:

@@ -18,6 +18,7 @@ floats; the checker is exact.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from random import Random
@@ -138,6 +139,7 @@ class ExactQuestion(Question):
                 )
                 verb = "are" if len(self.free) > 1 else "is"
                 whatever = f"whatever {', '.join(self.free)} {verb}"
+                terms = re.sub(r"\+ \(-([\d/]+)\)", r"- (\1)", terms)
                 raise NoTrimError(f"no trim: {terms} is {left / scale}, {whatever}")
         if many := q.nullspace(q.transposed(columns)):
             along = "; ".join(f"({', '.join(map(str, x))})" for x in many)

@@ -203,7 +203,10 @@ class _Symbolic:
             if order > 2:
                 self.refuse("is not quadratic in the velocity: ∂²L/∂Z² depends on it")
             if order == 2 and any(m[d:]):
-                self.refuse("has a metric ∂²L/∂Z² that depends on g")
+                self.refuse(
+                    "has a metric ∂²L/∂Z² that depends on g: derive symmetries tells what it "
+                    "keeps, derive trim whether a state is steady"
+                )
             parts[order] += polynomials.from_dict({m: c})
         potential, linear, kinetic = parts
         zero = (0,) * len(names)

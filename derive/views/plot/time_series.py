@@ -35,7 +35,7 @@ period, too few for a curve; unless it is even but for so much of its panel."""
 
 
 def letters(run: Run, kind: str = "state") -> list[tuple[str, list[Column]]]:
-    """The columns of the state, or of another kind, by letter and unit, of many the first."""
+    """The columns of the state, of many the first, or of another kind, by letter and unit."""
     named = (replace(x, name=shown(run.facts, x.name)) for x in run.columns if x.kind == kind)
     known = {x.name: x for x in named}
     grouped = by_letter(known) if kind == "state" else {}
@@ -45,8 +45,7 @@ def letters(run: Run, kind: str = "state") -> list[tuple[str, list[Column]]]:
     for key, names in grouped.items():
         for x in names:
             found.setdefault((key, known[x].unit), []).append(known[x])
-    most = 8 if kind == "state" else MOST
-    return [(key, members) for (key, _), members in found.items()][:most]
+    return [(key, x) for (key, _), x in found.items()][: 8 if kind == "state" else None]
 
 
 @dataclass(frozen=True)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 
 from ...algebra.groups import Group
@@ -300,17 +300,27 @@ def _null(
     told = [Equation(along(values, x), 0) for x in directions for values in (momenta, pushes)]
     acting = [with_numbers(problem, add(*terms)) for terms in driven]
     if not quotient.bears(acting):
-        what = "input" if problem.inputs else "force"
+        what = next(x for x, alone in _apart(problem, quotient.group) if not quotient.bears(alone))
         raise ProblemError(
-            f"{what} 1: L has symmetries without kinetic energy, and what pushes along them, or "
+            f"{what}: L has symmetries without kinetic energy, and what pushes along them, or "
             "depends on where a motion stands along them, has no motion to answer; add their "
-            f"kinetic energy, or leave the {what} out"
+            f"kinetic energy, or leave the {what.split()[0]} out"
         )
     laws = [law for x in directions for law in quotient.laws(acting, x) if law[0] != law[1]]
     told += [Equation(*law) for law in laws]
     size = str(1 + 2 * len(directions))
     prose = say("null.symmetries", size=size) + (say("null.driven") if problem.driven else ())
     return (draft.step(told, prose),)
+
+
+def _apart(problem: Problem, group: Group) -> Iterable[tuple[str, list[Tree]]]:
+    """What each table that acts gives along the basis, by the name of the table."""
+    given = [(f"input {k}", (x,), ()) for k, x in enumerate(problem.inputs, 1)]
+    tables = zip(problem.force_tables, problem.forces, strict=True)
+    for table, inputs, forces in [*given, *((t["table"], (), (x,)) for t, x in tables)]:
+        alone = replace(problem, inputs=inputs, forces=forces)
+        works = from_outside(alone, group)
+        yield table, [with_numbers(alone, add(*terms)) for terms in works]
 
 
 def coadjoint_terms(group: Group, epsilon: int) -> list[Tree]:

@@ -15,10 +15,10 @@ from ...algebra.word_trees import tree_of
 from ...algebra.words import Expr, inner, number, trace, word
 from ...language.derivatives import rate
 from ...language.expression import hypot
-from ...language.rational import Matrix
+from ...language.rational import Matrix, transposed
 from ...language.reserved import UNNAMED_FORCE, rate_of_mass
 from ...language.tree import Tree, add, mul, names, neg, nodes, plain, replaced
-from ...problem.entries_on_orbit import rational
+from ...problem.entries_on_orbit import element, rational
 from ...problem.fields import coordinates, velocity_at_place
 from ...problem.lagrangian_tables import quotient_of
 from ...problem.problem import Problem, ProblemError
@@ -103,8 +103,7 @@ class Places:
     def __init__(self, problem: Problem, group: Group) -> None:
         self.problem, self.group = problem, group
         self.left = problem.own_lagrangian.trivialisation == "left"
-        span = range(1, group.n + 1)
-        self.A: list[Trees] = [[("entry", "A", i, j) for j in span] for i in span]
+        self.A: list[Trees] = [[*row] for row in element(group)]
         self.body: list[Trees] = [[*group.in_block(x.block, x.at, 1)] for x in problem.places]
         self.zeta = coordinates(group)
         self.rates: Trees = [("entry", "ζ̇", a + 1) for a in range(group.dimension)]
@@ -135,7 +134,7 @@ class Places:
         if self.left and frame == "body" and "orthogonal" in factor.relations:
             return [*f]
         in_space = _times(self.A, f) if frame == "body" else [*f]
-        return _times(_transposed(self.A), in_space) if self.left else in_space
+        return _times(transposed(self.A), in_space) if self.left else in_space
 
     def _seen_in_block(self, torque: Sequence[Tree], frame: str, block: int) -> Trees:
         """A torque by its components in the body, on the right in space; in the plane they are
@@ -143,7 +142,7 @@ class Places:
         if len(torque) == 1 or frame == ("body" if self.left else "space"):
             return [*torque]
         R = self._rotation(block)
-        return _times(_transposed(R) if self.left else R, torque)
+        return _times(transposed(R) if self.left else R, torque)
 
     def _rotation(self, block: int) -> list[Trees]:
         """The entries of A that turn a block."""
@@ -152,7 +151,7 @@ class Places:
 
     def _along(self, speeds: Sequence[Tree], r: Trees) -> Trees:
         """The velocity of a place with these coordinates of Z: Zr in the body, ZAr in space."""
-        return [_dot(row, speeds) for row in _transposed(self._displacements(r))]
+        return [_dot(row, speeds) for row in transposed(self._displacements(r))]
 
     def _moving(self) -> Iterable[tuple[Tree, Tree]]:
         """The coordinates of the places in space, and of their velocities, by A and ζ."""
@@ -178,11 +177,11 @@ class Places:
                 return [_with(y, self.known) for y in x.y]
             case motion_kinds.RateOutput():
                 turns = [_axial(_block(e, self.group.of_block(x.block))) for e in self.group.basis]
-                whole = [_dot(row, self.zeta) for row in _transposed(turns)]
+                whole = [_dot(row, self.zeta) for row in transposed(turns)]
                 return whole if self.left else self._turned_back(whole, x.block)
             case motion_kinds.DirectionOutput():
                 d = self.group.in_block(x.block, x.direction)
-                turned = _times(self.A if x.frame == "space" else _transposed(self.A), d)
+                turned = _times(self.A if x.frame == "space" else transposed(self.A), d)
                 return turned[self.group.of_block(x.block)]
             case motion_kinds.DistanceOutput(anchor=anchor) if anchor is not None:
                 at = self.group.of_block(self.problem.block(x.on))
@@ -220,7 +219,7 @@ class Places:
     def _turned_back(self, vector: Sequence[Tree], block: int) -> Trees:
         """Ā on a vector of a block; a rate in the plane is the same in both frames."""
         R = self._rotation(block)
-        return [*vector] if len(vector) < len(R) else _times(_transposed(R), vector)
+        return [*vector] if len(vector) < len(R) else _times(transposed(R), vector)
 
 
 def _block(e: Matrix, at: slice) -> Matrix:
@@ -246,10 +245,6 @@ def combined(basis: Sequence[Matrix], zeta: Sequence[Tree], n: int) -> list[Tree
     """Σ ζ_a E_a, the first n rows and columns."""
     span = range(n)
     return [[_dot([plain(e[i][j]) for e in basis], zeta) for j in span] for i in span]
-
-
-def _transposed(a: Sequence[Sequence[Tree]]) -> list[Trees]:
-    return [[*column] for column in zip(*a, strict=True)]
 
 
 def _with(t: Tree, known: Mapping[Tree, Tree]) -> Tree:
@@ -363,7 +358,8 @@ def of_lagrangian(
     problem: Problem, group: Group, general: AnyLagrangian, balance: Steps, c: Chapter
 ) -> tuple[Step, ...]:
     """ḣ = Σ u_a ζ_a − ∂ₜL̃; no step where nothing acts and L̃ leaves the time alone."""
-    power = _along([add(*terms) for terms in from_outside(problem, group)], group)
+    zeta = coordinates(group)
+    power = _dot([add(*terms) for terms in from_outside(problem, group)], zeta)
     timed = [neg("∂ₜL̃")] if "t" in names(problem.own_lagrangian.L) else []
     if power == 0 and not timed:
         return ()
@@ -372,14 +368,9 @@ def of_lagrangian(
     draft.depends_on(general["moment_map"], motion)
     found: dict[str, list[Tree]] = {}
     for name, work in works_by_name(problem, group):
-        found.setdefault(name, []).append(_along(work, group))
+        found.setdefault(name, []).append(_dot(work, zeta))
     apart = _named(problem, {name: add(*powers) for name, powers in found.items()})
     prose = say("power.none" if power == 0 else "power.acting")
     prose += say("power.apart") if apart else ()
     prose += say("power.timed", rate="∂ₜL̃") if timed else ()
     return (draft.step(_balance([power], timed, apart), prose),)
-
-
-def _along(work: Sequence[Tree], group: Group) -> Tree:
-    """A covector by its values on the basis, at Z."""
-    return add(*(mul(x, z) for x, z in zip(work, coordinates(group), strict=True)))
