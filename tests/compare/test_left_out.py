@@ -33,8 +33,7 @@ a = np.array([[1, 0, 0], [0.6, 0, 0.8]])
 
 def rhs(t, x, k, u):
     A, w, v, W = np.reshape(x[:9], (3, 3)), x[14:17], x[17:20], x[20:]
-    rate = W
-    q, h = np.array([u[0] - 0.4 * rate[0], -u[0] / 2]), J * (a @ w + W)
+    q, h = np.array([u[0] - 0.4 * W[0], -u[0] / 2]), J * (a @ w + W)
     dw = np.linalg.solve(I, -a.T @ q - np.cross(w, I @ w + a.T @ h) - np.cross(v, N * v))
     turned = np.cross(w, N * v) / N
     return np.concatenate([(A @ hat(w)).ravel(), A @ v, W, dw, -turned, q / J - a @ dw])
@@ -156,7 +155,7 @@ FAULTS = {
     "wheels counted twice in the inertia": (
         "wheels",
         ("solve(I,", "solve(I + J * a.T @ a,"),
-        "what block 2 adds to the inertia of block 1 (of a wheel, aJā) has the factor 2",
+        "what block 2 adds to the inertia of block 1 (of a wheel, about its axis) has the factor 2",
     ),
     "wheels without what their motors push back": (
         "wheels",
@@ -165,7 +164,7 @@ FAULTS = {
     ),
     "a friction by the rate in space": (
         "wheels",
-        ("rate = W", "rate = W + a @ w"),
+        ("* W[0]", "* (W + a @ w)[0]"),
         "the covector is made of the velocity of block 2 and what block 1 adds to it (of a wheel, ",
     ),
     "Munk's moment of what carries wheels": (
