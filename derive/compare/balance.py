@@ -19,7 +19,7 @@ from ..language.values import approximate
 from ..problem.problem import Problem
 from ..schema.body_kinds import by_block
 from ..schema.force_kinds import Acting
-from .cross_products import cross, hats, through, turning
+from .cross_products import hats, through
 from .opened import ADDED, Opened, Slot, called
 from .users_code import Array
 
@@ -80,7 +80,7 @@ class Balance:
     moving: slice
     changed: Mapping[str, float] = field(default_factory=dict)
     more: Array | float = 0.0
-    codes: dict[str, ModuleType | None] = field(default_factory=dict)
+    codes: list[tuple[Problem, ModuleType | None]] = field(default_factory=list)
     part: slice = field(default_factory=lambda: slice(None))
     block: int = 0
 
@@ -265,7 +265,7 @@ class Balance:
         """What stands in M a = Σ terms: inputs, forces, damping, potentials, then what is left, by
         its degree in the velocity."""
         yield from self._given_terms()
-        rest = self._bare()
+        rest = self.bare()
         if rest is not None:
             yield from self._by_degree(rest)
 
@@ -290,7 +290,7 @@ class Balance:
             listed: tuple[Any, ...] = getattr(problem, key)
             for i, table in enumerate(listed):
                 idle = (_idle(table),) if key == "forces" else ()
-                code = self.without({key: (*listed[:i], *idle, *listed[i + 1 :])}, f"{key} {i}")
+                code = self.without({key: (*listed[:i], *idle, *listed[i + 1 :])})
                 if code is None:
                     continue
                 name = called(problem, table)
@@ -310,17 +310,17 @@ class Balance:
         d, bare = self.a.shape[1], self.u * 0
 
         def at(part: slice, sign: float = 1.0) -> Array:
-            return self.bias(self._moving(part, sign), bare, rest)
+            return self.bias(self.moved(part, sign), bare, rest)
 
         still, every = at(slice(0)), slice(None)
 
         def square(part: slice) -> Array:
             return still - (at(part) + at(part, sign=-1.0)) / 2
 
-        resting = self._idle_at(rest, self._moving(slice(0)))
+        resting = self._idle_at(rest, self.moved(slice(0)))
         yield Term(-still, _of("the force of the place in ℓ"), of=resting)
         linear = (at(every) - at(every, sign=-1.0)) / 2
-        yield Term(-linear, _of("what is linear in the velocity (gyroscopic)"))
+        yield Term(-linear, _of("the part linear in the velocity (gyroscopic)"))
         turning = len(self.rows["moment"])
         if turning == d:
             yield Term(square(every), lambda _: "ω × Iω" if d == 3 else f"{SQUARES} the velocity")
@@ -332,8 +332,6 @@ class Balance:
         alone = np.abs(crossed[:, :turning]).max() <= EXACT * np.abs(crossed).max()
         both = "ω × Mv" if alone else "the product of ω and v"
         yield Term(crossed, lambda row: "ω × Mv" if row == "force" else both)
-        if self.is_frame and turning == 3:
-            yield from self._of_momenta()
 
     def _acting(self, without: ModuleType) -> Part:
         """What a force adds to b, by the code that lacks it."""
@@ -351,7 +349,7 @@ class Balance:
 
     def of_momentum(self) -> Part | None:
         """What is left of b without inputs, forces and potentials."""
-        rest = self._bare()
+        rest = self.bare()
         return None if rest is None else self._idle_at(rest, self.x)
 
     def _idle_at(self, rest: ModuleType, x: Array) -> Part:
@@ -363,20 +361,22 @@ class Balance:
 
         return part
 
-    def _bare(self) -> ModuleType | None:
+    def bare(self) -> ModuleType | None:
         """The code of the problem on which nothing acts."""
         idle = tuple(map(_idle, self.opened.problem.forces))
-        return self.without({"forces": idle, "damping": (), "potentials": ()}, "all")
+        return self.without({"forces": idle, "damping": (), "potentials": ()})
 
-    def without(self, fewer: Any, key: str, problem: Problem | None = None) -> ModuleType | None:
+    def without(self, fewer: Any, problem: Problem | None = None) -> ModuleType | None:
         """The code of the problem that lacks something, made once; none where it has no walk."""
-        whole = problem or self.opened.problem
-        if key not in self.codes:
-            try:
-                self.codes[key] = self.make(replace(whole, **fewer), True)[1]
-            except Refused:
-                self.codes[key] = None
-        return self.codes[key]
+        of = replace(problem or self.opened.problem, **fewer)
+        if found := [code for made, code in self.codes if made == of]:
+            return found[0]
+        try:
+            code = self.make(of, True)[1]
+        except Refused:
+            code = None
+        self.codes.append((of, code))
+        return code
 
     def together(self) -> Iterator[Term]:
         """All inputs as one term, where there are several."""
@@ -387,24 +387,7 @@ class Balance:
                 lambda row: f"the {row or 'load'} of all inputs",
             )
 
-    def coadjoint(self, momenta: Array) -> dict[str, Array]:
-        """What momenta π, p (N, d) make in b by Kirchhoff's equations, about the origin."""
-        (w, v), turns = self.velocities(), len(self.rows["moment"])
-        p, none = momenta[:, turns:], np.zeros_like(self.a)
-        spun = np.cross(w, momenta[:, :turns]) if turns == 3 else none[:, :turns]
-        return {
-            "ω × π": np.hstack([spun, none[:, turns:]]),
-            "v × p": np.hstack([cross(v, p), none[:, turns:]]),
-            "ω × p": np.hstack([none[:, :turns], turning(w, p)]),
-        }
-
-    def _of_momenta(self) -> Iterator[Term]:
-        """Two of these by the momenta that there are."""
-        momenta = through(self.mass(self.values()), self.x[:, self.moving])
-        for letters, values in [*self.coadjoint(momenta).items()][:2]:
-            yield Term(-values, _of(f"{letters} of the momenta π = ∂ℓ/∂ω, p = ∂ℓ/∂v"), part=True)
-
-    def _moving(self, part: slice, sign: float = 1.0) -> Array:
+    def moved(self, part: slice | list[int], sign: float = 1.0) -> Array:
         """The states with some of the velocity alone."""
         x, own = self.x.copy(), self.x[:, self.moving]
         x[:, self.moving] = 0
@@ -416,7 +399,7 @@ class Balance:
         turning = len(self.rows["moment"])
         if turning < self.a.shape[1]:
             for word, part in (("ω", slice(0, turning)), ("v", slice(turning, None))):
-                x = self._moving(part)
+                x = self.moved(part)
                 values = self.bias(x, self.u, without) - self.bias(x, self.u)
                 yield Term(values, _of(f"the part by {word} of {name}"), part=True)
 
@@ -436,7 +419,7 @@ def _idle(force: Acting) -> Acting:
     return replace(force, **own)
 
 
-SQUARES = "what is quadratic in"
+SQUARES = "the part quadratic in"
 
 
 def _of(name: str) -> Callable[[str], str]:

@@ -31,3 +31,16 @@ def through(to: Any, vectors: Array) -> Array:
 def hats(r: Array) -> Array:
     """The matrices of r × of vectors in space, (N, 3, 3)."""
     return np.asarray(np.cross(r[:, None, :], np.eye(3)).transpose(0, 2, 1))
+
+
+def coadjoint(velocity: Array, momenta: Array, turns: int) -> dict[str, Array]:
+    """What momenta π, p (N, d) of a body make in its equations by Kirchhoff's, about the origin; of
+    its velocity the first ``turns`` are ω, the others v."""
+    (w, v), (spin, p) = (np.split(x, [turns], axis=1) for x in (velocity, momenta))
+    none = np.zeros_like(velocity)
+    spun = np.cross(w, spin) if turns == 3 else none[:, :turns]
+    found = {"ω × π": np.hstack([spun, none[:, turns:]])}
+    if v.shape[1]:
+        found["v × p"] = np.hstack([cross(v, p), none[:, turns:]])
+        found["ω × p"] = np.hstack([none[:, :turns], turning(w, p)])
+    return found

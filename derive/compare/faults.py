@@ -13,16 +13,8 @@ import numpy as np
 from .balance import Balance, Part, Term, exact
 from .cross_products import through
 from .inertia_operators import of_added_mass, of_blocks
-from .left_out import left_out
-from .newton_euler import (
-    IN_MASS,
-    of_axes,
-    of_masses_held,
-    of_newton_euler,
-    of_sizes,
-    of_wrenches,
-    parallel,
-)
+from .left_out import left_out, of_rates_together
+from .newton_euler import IN_MASS, of_masses_held, of_newton_euler, parallel
 from .told import (
     ABOUT,
     NEAR,
@@ -36,6 +28,7 @@ from .told import (
     with_other,
 )
 from .users_code import Array
+from .wrenches import of_axes, of_own_arms, of_sizes, of_wrenches
 
 NEARER = 0.5
 """What a change leaves of the difference at most, to be told as the nearest."""
@@ -54,7 +47,9 @@ def hypotheses(b: Balance, terms: list[Term]) -> Iterator[Hypothesis]:
     yield from of_masses_held(b, terms)
     yield from of_newton_euler(b, terms)
     yield from of_terms(b, terms)
-    for term in left_out(b):
+    yield from of_own_arms(b, terms)
+    yield from of_rates_together(b, terms)
+    for term in left_out(b, terms):
         yield from of_term(b, term, views(b)[0])
 
 

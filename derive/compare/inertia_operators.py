@@ -12,7 +12,7 @@ from itertools import combinations, product
 import numpy as np
 
 from .balance import Balance
-from .cross_products import through, turning
+from .cross_products import coadjoint, through, turning
 from .newton_euler import IN_MASS
 from .told import FACTORS, SIMPLE, Hypothesis, changed
 from .users_code import Array
@@ -77,14 +77,14 @@ def rigid_bodies(n: int) -> Array:
 
 def parts(b: Balance) -> dict[str, Callable[[Array], Array]]:
     """What an operator, or one for each state, makes in M a + b, by the place in words."""
-    ζ = np.hstack(b.velocities())
+    ζ, turns = np.hstack(b.velocities()), len(b.rows["moment"])
 
     def coriolis(K: Array) -> Array:
-        return np.asarray(sum(b.coadjoint(through(K, ζ)).values()))
+        return np.asarray(sum(coadjoint(ζ, through(K, ζ), turns).values()))
 
     return {
         " in the momenta π, p of the Coriolis terms alone": coriolis,
-        " in v × p alone": lambda K: b.coadjoint(through(K, ζ))["v × p"],
+        " in v × p alone": lambda K: coadjoint(ζ, through(K, ζ), turns)["v × p"],
         IN_MASS: lambda K: through(K, b.a),
         "": lambda K: through(K, b.a) + coriolis(K),
     }

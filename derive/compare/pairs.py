@@ -10,9 +10,9 @@ import numpy as np
 from .balance import Balance, Term, exact
 from .cross_products import through
 from .faults import NEARER, Explanation, named_vector, of_exchanges, of_terms, views
-from .newton_euler import of_all_wrenches, of_axes, of_wrench
 from .told import ABOUT, FACTORS, NEAR, Changed, changed, possible, told
 from .users_code import Array
+from .wrenches import of_all_wrenches, of_axes, of_wrench
 
 
 def of_two(b: Balance, terms: list[Term]) -> Explanation | None:

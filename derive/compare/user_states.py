@@ -173,8 +173,10 @@ def read(
     """The table of a TOML file, or what is meant without one; names that follow one another as in
     a block of our own are that block.  ``coordinates`` stand for entries, names ``by_block`` for
     those of the state.  ``CompareError`` says which key is wrong."""
+    state = tuple(x.name for x in default.items)
+    default = replace(default, items=_in_blocks(default.items, blocks))
     if path is None:
-        return replace(default, items=_in_blocks(default.items, blocks))
+        return default
     try:
         told = tomllib.loads(path.read_text(encoding="utf-8"))
     except OSError as error:
@@ -184,9 +186,7 @@ def read(
     words = _words(blocks)
     known = ("call", "state", "inputs", "units", "parameters", *(words or WORDS))
     _require_known(told, known, str(path))
-    state = tuple(x.name for x in default.items)
-    apart = [x for x in state if all(x not in own for own in blocks.values())]
-    listed = _texts(told.get("state", [*blocks, *apart]), f"{path}: state")
+    listed = _texts(told.get("state", [x.name for x in default.items]), f"{path}: state")
     named = (*coordinates, *state, *by_block)
     if not blocks and any(map(kind_of, listed)):
         told_of = "blocks are of SO(3) and SE(3); give names"

@@ -4,14 +4,28 @@ import tomllib
 from itertools import product
 from pathlib import Path
 
+from derive.command.cli import main
+
 LISTED = tomllib.loads(Path(__file__).with_name("right_codes.toml").read_text(encoding="utf-8"))
 """What is right, and how it is called."""
+
+
+def compared(capsys, folder, problem, code, table, *changes):
+    """The exit code and what is printed of a code with some of its text changed."""
+    for old, new in changes:
+        assert old in code
+        code = code.replace(old, new)
+    file = folder / ("users.c" if "#include" in code else "users.py")
+    for path, text in ((file, code), ("problem.toml", problem), ("as.toml", table)):
+        (folder / path).write_text(text, encoding="utf-8")
+    words = ["compare", str(folder / "problem.toml"), "--with", str(file)]
+    return main([*words, "--as", str(folder / "as.toml")]), capsys.readouterr()
+
 
 SATELLITE = """
 name = "satellite"
 group = "SE(3)"
-[parameters]
-mu = 3.7
+parameters = { mu = 3.7 }
 [body]
 given = { m = 1.3, centre = [0, 0, 0], I_centre = [[0.3, 0, 0], [0, 0.4, 0], [0, 0, 0.6]] }
 [[potential]]
@@ -148,8 +162,7 @@ SLED_CODE = HULL_CODE.replace("-D @ through", "-D @ through * [1, *np.abs(throug
 TOP = """
 name = "heavy"
 group = "SO(3)"
-[parameters]
-m = 1.3
+parameters = { m = 1.3 }
 [body]
 given = { m = "m", centre = [0.1, 0.05, 0.4], I_centre = [
   [0.3, 0.01, 0], [0.01, 0.4, 0], [0, 0, 0.5]] }

@@ -1,5 +1,5 @@
 """``derive compare`` on products of groups: attitudes, places and velocities of each factor, and
-coordinates of factors of one parameter beside the user's own."""
+coordinates of factors of one parameter, by either name of a velocity, beside the user's own."""
 
 import re
 
@@ -13,31 +13,15 @@ from derive.problem.toml import load
 PAIR = """
 name = "pair"
 group = "SE(3) x SE(3)"
-[parameters]
-k = 7.0
-g = 9.81
-b = 0.3
-[[point]]
-mass = 2
-at = [0.2, 0, 0.1]
-[[point]]
-mass = 1
-at = [0, 0.5, 0]
-[[point]]
-mass = 1.5
-at = [-0.1, 0, 0.6]
-[[point]]
-mass = 0.7
-at = [0.4, 0, 0]
-block = 2
-[[point]]
-mass = 1.2
-at = [0, -0.3, 0.2]
-block = 2
-[[point]]
-mass = 0.9
-at = [0.1, 0.6, 0]
-block = 2
+parameters = { k = 7.0, g = 9.81, b = 0.3 }
+point = [
+  { mass = 2, at = [0.2, 0, 0.1] },
+  { mass = 1, at = [0, 0.5, 0] },
+  { mass = 1.5, at = [-0.1, 0, 0.6] },
+  { mass = 0.7, at = [0.4, 0, 0], block = 2 },
+  { mass = 1.2, at = [0, -0.3, 0.2], block = 2 },
+  { mass = 0.9, at = [0.1, 0.6, 0], block = 2 },
+]
 [[potential]]
 kind = "gravity"
 g = [0, 0, "-g"]
@@ -110,9 +94,11 @@ quaternion2.order = "xyzw"
 velocity1.frame = "space"
 """
 
-# A block that slides, and an arm that turns about an axis of it, as one group by a basis.
-SLIDER = """
+# A block that slides, and an arm that turns about an axis of it: as one group by a basis.
+NUMBERS = "parameters = { M = 2.5, m = 0.6, l = 0.9, k = 5.0, g = 9.81, c = 0.3 }"
+SLIDER = f"""
 name = "slider"
+{NUMBERS}
 [group]
 name = "Slider"
 action = "linear"
@@ -120,30 +106,49 @@ basis = [
   [[0, 1, 0, 0], [0, 0, 0, 0], [0, 0, 0, 0], [0, 0, 0, 0]],
   [[0, 0, 0, 0], [0, 0, 0, 0], [0, 0, 0, -1], [0, 0, 1, 0]],
 ]
-[parameters]
-M = 2.5
-m = 0.6
-l = 0.9
-k = 5.0
-g = 9.81
 [lagrangian]
 L = "(M + m)*zeta_1^2/2 + m*l*A_33*zeta_1*zeta_2 + m*l^2*zeta_2^2/2 - k*A_12^2/2 + m*g*l*A_33"
+[[force]]
+name = "hinge"
+covector = ["0", "-c*zeta_2"]
 """
-SLIDES = """
+BASIS = SLIDER[SLIDER.index("[group]") : SLIDER.index("[lagrangian]")]
+CART = SLIDER.replace(BASIS, "").replace('"slider"', '"cart"\ngroup = "R(1) x SO(2)"')
+CART = CART.replace("A_33", "A2_11").replace("A_12", "T1_1")
+POLE = """
 import numpy as np
-M, m, l, k, g = 2.5, 0.6, 0.9, 5.0, 9.81
+M, m, l, k, g, c = 2.5, 0.6, 0.9, 5.0, 9.81, 0.3
 
-def f(x):
-    s, angle, v, w = x
+def by_angle(x):
+    place, angle, v, w = x
     mass = np.array([[M + m, m*l*np.cos(angle)], [m*l*np.cos(angle), m*l*l]])
-    b = [m*l*np.sin(angle)*w*w - k*s, -m*g*l*np.sin(angle)]
+    b = [m*l*np.sin(angle)*w*w - k*place, -m*g*l*np.sin(angle) - c*w]
     return np.array([v, w, *np.linalg.solve(mass, b)])
+
+def turning_in_degrees(x):
+    unit = np.degrees([np.pi/180, 1, np.pi/180, 1])
+    return unit * by_angle(x / unit)
+
+def by_matrix(x):
+    place, C, a, S, b, v, w = x
+    rates = by_angle([place, np.arctan2(S, C), v, w])
+    return np.array([v, -S*w, -C*w, C*w, -S*w, *rates[2:]])
 """
-SLID = 'call = "f(x) -> dx"\nstate = ["s_1", "theta_2", "zeta_1", "zeta_2"]\n'
+STATES = {
+    "cart by_matrix": '["T1_1", "A2_11", "A2_12", "A2_21", "A2_22", "zeta1_1", "zeta2_1"]',
+    "cart by_angle": '["T1_1", "theta_2", "zeta1_1", "zeta2_1"]',
+    "cart by_angle, names of the state": '["T1_1", "theta_2", "zeta_1", "zeta_2"]',
+    "slider by_angle": '["s_1", "theta_2", "zeta_1", "zeta_2"]',
+}
+SLID = {
+    name: f'call = "{name.split()[1].strip(",")}(x) -> dx"\nstate = {x}\n'
+    for name, x in STATES.items()
+}
 
 # Coordinates of a scale, and of two shears that commute.
 CLOTH = """
 name = "cloth"
+parameters = { a = 2.0, c = 0.4 }
 [group]
 name = "Cloth"
 action = "linear"
@@ -152,9 +157,6 @@ basis = [
   [[0, 0, 0, 0, 0], [0, 0, 0, 0, 0], [0, 0, 0, 1, 0], [0, 0, 0, 0, 0], [0, 0, 0, 0, 0]],
   [[0, 0, 0, 0, 0], [0, 0, 0, 0, 0], [0, 0, 0, 0, 1], [0, 0, 0, 0, 0], [0, 0, 0, 0, 0]],
 ]
-[parameters]
-a = 2.0
-c = 0.4
 [lagrangian]
 L = "a*zeta_1^2/2 + zeta_2^2 + zeta_3^2/2 - A_11*A_34 - c*A_22*A_35^2"
 """
@@ -169,8 +171,32 @@ def f(x):
     return np.array([*rates, b[0] / a, b[1] / 2, b[2]])
 """
 STRETCH = 'call = "f(x) -> dx"\nstate = ["s_1", "s_2", "s_3", "zeta_1", "zeta_2", "zeta_3"]\n'
-CASES = {"pair": (PAIR, BODIES, SAID), "slider": (SLIDER, SLIDES, SLID)}
-CASES |= {"cloth": (CLOTH, STRETCHED, STRETCH)}
+CAR = """
+name = "car"
+group = "SE(2)"
+parameters = { m = 2.0, g = 9.81 }
+[body]
+given = { m = "m", centre = [0.1, 0], J = [[0.3, 0], [0, 0.4]] }
+[[potential]]
+kind = "gravity"
+g = [0, "-g"]
+"""
+SKID = """
+import numpy as np
+m, r, g, I = 2.0, 0.1, 9.81, 0.7
+
+def f(x):
+    X, Y, angle, u, v, w = x
+    c, s = np.cos(angle), np.sin(angle)
+    # about the body's origin, along its axes; the centre of mass at (r, 0)
+    mass = np.array([[m, 0, 0], [0, m, m*r], [0, m*r, I]])
+    force = [m*w*v + m*r*w*w - m*g*s, -m*w*u - m*g*c, -m*r*w*u - m*r*g*c]
+    return np.array([c*u - s*v, s*u + c*v, w, *np.linalg.solve(mass, force)])
+"""
+BY_ANGLE = 'call = "f(x) -> dx"\nstate = ["T_1", "T_2", "theta_1", "w_1", "w_2", "zeta_1"]'
+CASES = {"pair": (PAIR, BODIES, SAID), "cloth": (CLOTH, STRETCHED, STRETCH)}
+CASES |= {x: (CART if "cart" in x else SLIDER, POLE, table) for x, table in SLID.items()}
+CASES |= {"car": (CAR, SKID, BY_ANGLE)}
 
 
 def compared(folder, name, *changes, said=None):
@@ -225,12 +251,11 @@ FAULTS = {
         ("np.cross(AT[1][0], F2) - b", "- b"),
         "in block 2: the moment of spring is missing",
     ),
-    "degrees": (
-        "slider",
-        (" = x\n", " = x\n    angle, w = np.radians([angle, w])\n"),
-        ("w, *np.linalg.solve(mass, b)]", "w, *np.linalg.solve(mass, b)] * np.array([1, D, 1, D])"),
-        ("def f", "D = np.degrees(1)\ndef f"),
-        "it agrees if theta_2 and zeta_2 have the unit 57.295779513082323, degrees",
+    **{f"friction of a {x}": (x, ("- c*w]", "+ c*w]"), "c has the other sign") for x in STATES},
+    "centrifugal term": (
+        "slider by_angle",
+        ("m*l*np.sin(angle)*w*w ", ""),
+        "the centrifugal term by zeta_2²",
     ),
     "sign of an energy": ("cloth", ("+ 2*c", "- 2*c"), ("-2*c", "2*c"), "c has the other sign"),
 }
@@ -244,20 +269,31 @@ def test_faults(fault, tmp_path):
     assert any(words in x for x in lines[1:]), lines
 
 
-@pytest.mark.parametrize(
-    ("state", "words"),
-    [
-        ('["omega"]', "'omega' means nothing here; did you mean 'omega"),
-        ('["matrix1", "position1", "quaternion2", "matrix2"]', "the state says twice A2_11"),
-        ('["quaternion2", "omega2"]', "the state does not say A1_11"),
-    ],
-)
-def test_what_a_state_of_blocks_does_not_say(state, words, tmp_path):
+def test_an_angle_and_its_rate_are_in_degrees(tmp_path):
+    said = SLID["cart by_angle"].replace("by_angle", "turning_in_degrees")
+    agrees, lines = compared(tmp_path, "cart by_angle", said=said)
+    assert not agrees
+    assert ", zeta2_1 (" in lines[0]
+    assert "  it agrees if theta_2 and zeta2_1 have the unit 57.295779513082323, degrees" in lines
+    said += "[units]\ntheta_2 = 57.295779513082323\nzeta2_1 = 57.295779513082323\n"
+    assert compared(tmp_path, "cart by_angle", said=said)[0]
+    assert not (tmp_path / "__pycache__").exists()
+
+
+NOT_SAID = [
+    ("pair", '["omega"]', "'omega' means nothing here; did you mean 'omega"),
+    ("pair", '["matrix1", "position1", "quaternion2", "matrix2"]', "the state says twice A2_11"),
+    ("pair", '["quaternion2", "omega2"]', "the state does not say A1_11"),
+    ("cart", '["theta"]', "'theta' means nothing here; did you mean 'theta_2'? known: theta_2, "),
+    ("cart", '["position"]', "blocks are of SO(3) and SE(3); give names: theta_2, T1_1, "),
+    ("cart", '["T1_1", "theta_2", "A2_11", "zeta_1", "zeta_2"]', "the state says twice A2_11"),
+    ("cart", '["T1_1", "theta_2", "zeta_1", "zeta1_1"]', "the state says twice zeta_1"),
+    ("cloth", '["s_1", "s_2", "zeta_1", "zeta_2", "zeta_3"]', "the state does not say s_3"),
+]
+
+
+@pytest.mark.parametrize(("name", "state", "words"), NOT_SAID)
+def test_what_the_state_does_not_say(name, state, words, tmp_path):
+    name += " by_angle" * (name == "cart")
     with pytest.raises(CompareError, match=re.escape(words)):
-        compared(tmp_path, "pair", said=f'call = "f(x, u) -> dx"\nstate = {state}')
-
-
-def test_coordinates_that_one_part_has_are_all_said(tmp_path):
-    said = STRETCH.replace('"s_3", ', "")
-    with pytest.raises(CompareError, match="the state does not say s_3"):
-        compared(tmp_path, "cloth", said=said)
+        compared(tmp_path, name, said=f'call = "f(x) -> dx"\nstate = {state}')
