@@ -156,7 +156,6 @@ OTHERS += [(name, "principal") for name in ("so3", "se3", "sl3")]
 SAMPLED = [(name, "C") for name in MEASURED if name not in ("gl3", "heisenberg", "su2")] + OTHERS
 
 pytestmark = needs("cc")
-CHANGES_THE_ENGINE = True
 
 
 @pytest.mark.parametrize(("problem", "form"), SAMPLED)

@@ -92,8 +92,6 @@ def test_the_header_counts_its_operations(name):
 
 # ---------------------------------------------------------------- what is too large
 
-CHANGES_THE_ENGINE = True
-
 
 def of(group):
     n = int(group[group.index("(") + 1 : -1])

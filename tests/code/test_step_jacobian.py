@@ -114,7 +114,7 @@ QUOTIENTS = {
     "spherical_pendulum": ("spherical_pendulum", lambda g: g[:, 2]),
     "tilted": (TILTED, lambda g: g @ [1, 0, 1]),
     "rod": ("rod", lambda g: np.concatenate([g @ [0, 0, 1, 1], g @ [0, 0, -1, 1]])),
-    "from_space": (FROM_SPACE, lambda g: g[2]),
+    "right": (FROM_SPACE, lambda g: g[2]),
 }
 """Problem, and what of g is one of the quotient: linear, so that of its rate that is the speed."""
 

@@ -79,19 +79,22 @@ def compiled_once(folder, source, what, compiler=None):
 
 OWN["compiled_into"], ONCE["compiled_into"] = native.compiled_into, compiled_once
 
-ROOMS = ("code", "command", "motion", "page", "plot", "python", "validate")
+ROOMS = ("code", "command", "motion", "page", "plot", "python", "validate", "walk")
+CHANGED = "code/test_c_agrees code/test_generated walk/lie/test_torus"
+CHANGED = (*CHANGED.split(" "), "walk/test_any_problem", "walk/test_fluid", "walk/test_stages")
 
 
 @pytest.fixture(autouse=True, scope="module")
 def made_once(request):
     """In these rooms of tests, wherever the engine has a name of the pipeline, what it makes is
-    shared; not in a file that changes the engine, which says so by ``CHANGES_THE_ENGINE``."""
-    shared_here = request.path.relative_to(TESTS).parts[0] in ROOMS
+    shared, in the others what is compiled alone; nothing in a file that changes the engine."""
+    file = request.path.relative_to(TESTS).with_suffix("").as_posix()
+    names = ONCE if file.partition("/")[0] in ROOMS else ["compiled_into"]
     with pytest.MonkeyPatch.context() as patch:
-        if shared_here and not hasattr(request.module, "CHANGES_THE_ENGINE"):
+        if file not in CHANGED:
             modules = [x for name, x in sys.modules.items() if name.startswith("derive.")]
             for module in (*modules, request.module):
-                for name, shared in ONCE.items():
+                for name in names:
                     if vars(module).get(name) is OWN[name]:
-                        patch.setattr(module, name, shared)
+                        patch.setattr(module, name, ONCE[name])
         yield
