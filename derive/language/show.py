@@ -132,9 +132,10 @@ def _base(t: Tree) -> str:
 
 def _under(t: Tree) -> str:
     """The text of a divisor: bare if it is a power of a letter or of a norm."""
-    shown = show(t)
-    power = isinstance(t, tuple) and t[0] == "pow" and t[2] > 0 and _node(t)[1] == ATOM
-    return shown if power else _base(t)
+    if isinstance(t, tuple) and t[0] == "pow" and t[2] > 0:
+        text, level = _show(t)
+        return text if level == ATOM else f"({text})"
+    return _base(t)
 
 
 def _below(t: Tree) -> str:
