@@ -94,6 +94,7 @@ def test_functions_have_their_values(e):
         assert abs(found - mpmath.mpf(str(inner[0]))) < mpmath.mpf(10) ** -40 * (1 + abs(found))
 
 
+@settings(deadline=None)
 @given(st.floats(allow_nan=False, allow_infinity=False).filter(lambda y: y == 0 or abs(y) > 1e-290))
 def test_a_float_is_the_float_that_it_is(y):
     assume(abs(y) < 1e290)
