@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from pathlib import Path
 
-from ..lecture import document, lecture_text, trials
+from ..lecture import document, lecture_text, ticked_steps, trials
 from ..lecture.back_matter import Front
 from ..pipeline import discrete, walk
 from ..problem.problem import Problem
@@ -40,9 +41,13 @@ def command_lecture(args: argparse.Namespace) -> int:
     if args.check:
         tried = (len([*trials.tried(x, named_by(x, records))]) for x in chapters)
         print(f"{sum(with_progress(tried, len(chapters), 'chapters'))} equations hold")
-    shown = document.page if out.suffix == ".html" else document.latex
     front = Front(args.title, args.author, args.course, args.date)
-    text = shown(document.Lecture(chapters, language(args.lang), records, front, args.solutions))
+    lecture = document.Lecture(chapters, language(args.lang), records, front, args.solutions)
+    if out.suffix == ".html":
+        judgements = ticked_steps.judged(chapters, records) if args.check else {}
+        text = document.page(replace(lecture, judgements=judgements))
+    else:
+        text = document.latex(lecture)
     content = pdf_of(text, out, {}) if out.suffix == ".pdf" else text
     for path in write({out.name: content}, out.parent, links=True):
         print(path)
