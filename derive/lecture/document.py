@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import partial, reduce
 from itertools import zip_longest
-from typing import Any
+from typing import Any, NamedTuple
 
 from ..check.form.hypotheses_checked import Verdict
 from ..language.read import FormulaError
@@ -40,6 +40,7 @@ WORDS = (
     "A name at the right begins with one of these; the command beside it prints the steps.",
 )
 """The words of the templates."""
+MOVE = "Move it: {title}"
 MARKED = re.compile(r"_([^_]+)_|@([a-z_]+)")
 """What is marked among words: emphasis, and the number of a block."""
 COMMAND = "derive "
@@ -116,12 +117,20 @@ Set = dict[str, Any]
 """What a template takes of a chapter, a block, an entry or a letter."""
 
 
+class Frame(NamedTuple):
+    """A page of its own behind a figure, in which what this shows moves: its title, its HTML."""
+
+    title: str
+    page: str
+
+
 @dataclass(frozen=True)
 class Lecture:
     """Chapters in a language; ``records``: those of the chapters, by the names that these give
     them; ``solutions``: where those of the exercises stand, at the end of each ``chapter``, in
     one of their own at the ``end``, or nowhere (``none``); ``judgements``: the verdicts on the
-    steps that its ticks name, where they were tried."""
+    steps that its ticks name, where they were tried; ``frames``: of a page, by the labels of the
+    figures."""
 
     chapters: Sequence[Chapter]
     language: Language
@@ -129,6 +138,7 @@ class Lecture:
     front: Front = UNTITLED
     solutions: str = "chapter"
     judgements: Mapping[str, Verdict] = field(default_factory=dict)
+    frames: Mapping[str, Frame] = field(default_factory=dict)
 
 
 def latex(lecture: Lecture) -> str:
@@ -149,6 +159,10 @@ def page(lecture: Lecture) -> str:
                 between.setdefault(label, []).append(link)
     told = lecture.chapters, lecture.records, lecture.language, lecture.judgements
     whole |= {"steps": ticked(*told, between), "anchored": anchor}
+    whole["frames"] = {
+        label: (x, lecture.language.word(MOVE, title=x.title))
+        for label, x in lecture.frames.items()
+    }
     text = environment("html").get_template("lecture.html.jinja").render(whole)
     text = CAPITAL.sub(r'<mi mathvariant="normal">\1</mi>', text)  # as LaTeX has them
     return CLOSED.sub(r'<span class="close">\1\2</span>', text)

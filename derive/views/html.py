@@ -265,9 +265,7 @@ class _PartFields:
         titled = replace(drawn, title=outline.title(self.part.source, self.language))
         return {"figure": svg(titled), "caption": caption}
 
-    def step(
-        self, step: Step, shown: Equations, there: Collection[str] | None = None
-    ) -> Fields:
+    def step(self, step: Step, shown: Equations, there: Collection[str] | None = None) -> Fields:
         """The fields of a step, with the equations it rests on, or that write it in coordinates;
         of steps that are ``there`` on a page, where not all are, no more than the link."""
 
