@@ -37,6 +37,7 @@ WORDS = (
     *("Definition", "Lemma", "Proposition", "Theorem", "Remark", "Proof", "Calculation"),
     *("Exercise", "Solution", "Solutions", "Fig.", "Symbols", "Bibliography", "Steps"),
     "The steps behind the ticks",
+    *("Projector", "The step before", "The next step", "Leave (Esc)", "now", "{n} of {all}"),
     "A name at the right begins with one of these; the command beside it prints the steps.",
 )
 """The words of the templates."""

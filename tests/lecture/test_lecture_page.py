@@ -73,9 +73,15 @@ def test_the_figures_of_free_body_and_top_move_on_the_page_in_its_language(tmp_p
     assert frames_of([TOP], {"paths": str(still)}, "en") == {}
 
 
+def following(page, label):
+    """The step behind one of the page."""
+    labels = page.locator("article").evaluate_all("(all) => all.map((x) => x.id)")
+    return labels[labels.index(label) + 1]
+
+
 @needs("node", "the module playwright", "chromium")
 @pytest.mark.parametrize(("width", "colours"), [(1440, "light"), (390, "dark")])
-def test_a_tick_opens_its_step_and_axe_finds_nothing(width, colours, tmp_path):
+def test_a_tick_opens_its_step_p_projects_it_and_axe_finds_nothing(width, colours, tmp_path):
     """With all that is folded open; the page itself does not move sideways."""
     for lang in LANGUAGES:
         file = tmp_path / f"{lang}.html"
@@ -89,3 +95,13 @@ def test_a_tick_opens_its_step_and_axe_finds_nothing(width, colours, tmp_path):
             page.wait_for_timeout(300)  # until what is wide was seen
             assert violations(page) == []
             assert page.evaluate("document.documentElement.scrollWidth <= innerWidth")
+            at = page.evaluate("document.querySelector('article:target').id")
+            page.keyboard.press("p")
+            assert page.inner_text("#projector .from") == at
+            page.keyboard.press("PageDown")
+            assert page.inner_text("#projector .from") == following(page, at)
+            assert page.locator("#projector .now math").first.is_visible()
+            assert violations(page) == []
+            page.keyboard.press("Escape")
+            assert page.locator(f"[id='{following(page, at)}']").is_visible()
+            assert not page.is_visible("#projector")
