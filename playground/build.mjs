@@ -44,11 +44,14 @@ await build({
   bundle: true, format: "esm", minify: true, target: "es2022", outdir: out, legalComments: "none",
   external: ["./pyodide/pyodide.mjs"],
 });
-for (const file of ["index.html", "moving.html", "play.css", "arrows.css", "icon.svg", "play.webmanifest"]) {
+for (const file of ["index.html", "moving.html", "arrows.css", "icon.svg", "play.webmanifest"]) {
   copyFileSync(join(here, "src", file), join(out, file));
 }
 copyFileSync(join(html, "motion.css"), join(out, "motion.css"));
-writeFileSync(join(out, "page.css"), readFileSync(join(html, "page.css"), "utf8") + readFileSync(join(here, "src", "walk.css"), "utf8"));
+const together = (...paths) => paths.map((x) => readFileSync(x, "utf8")).join("");
+const projector = join(html, "projector.css");
+writeFileSync(join(out, "page.css"), together(join(html, "page.css"), join(here, "src", "walk.css"), projector));
+writeFileSync(join(out, "play.css"), together(join(here, "src", "play.css"), projector));
 for (const file of ["data.json", "gallery.json", "motion.js"]) copyFileSync(join(stage, file), join(out, file));
 cpSync(join(stage, "ready"), join(out, "ready"), { recursive: true });
 

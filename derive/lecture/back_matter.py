@@ -78,22 +78,35 @@ PRINTED_BY = {
 the same name."""
 
 
-def homes(chapters: Sequence[Chapter], records: Mapping[str, Derivation]) -> dict[str, list[str]]:
-    """How the labels in the margins begin → the commands that print these steps."""
-    found: dict[str, dict[str, str]] = {}
+def sources(
+    chapters: Sequence[Chapter], records: Mapping[str, Derivation]
+) -> dict[str, tuple[str, str]]:
+    """The labels in the margins, each with the name of the record that has its step, and how that
+    is typed; as few records as there may be."""
+    found: dict[str, tuple[str, str]] = {}
     steps = {name: {s.label for s in d.steps} for name, d in records.items()}
+    taken: dict[str, dict[str, str]] = {}
     for chapter in chapters:
         for label in (x for e in chapter.entries for x in e.labels):
-            places = found.setdefault(label.partition(".")[0], {})
-            if not any(label in steps[name] for name in places):
-                name = next(name for name in chapter.problems if label in steps[name])
-                # of a problem of the reader's as that was called
-                called = chapter.name if chapter.of_course else quote(chapter.file)
-                places[name] = _printing(name.replace(chapter.name, called, 1))
-    return {x: [*places.values()] for x, places in sorted(found.items())}
+            places = taken.setdefault(label.partition(".")[0], {})
+            name = next(x for x in (*places, *chapter.problems) if label in steps[x])
+            # of a problem of the reader's as that was called
+            called = chapter.name if chapter.of_course else quote(chapter.file)
+            places.setdefault(name, name.replace(chapter.name, called, 1))
+            found[label] = name, places[name]
+    return found
 
 
-def _printing(name: str) -> str:
+def homes(chapters: Sequence[Chapter], records: Mapping[str, Derivation]) -> dict[str, list[str]]:
+    """How the labels in the margins begin → the commands that print these steps."""
+    found: dict[str, dict[str, None]] = {}
+    for label, (_, called) in sources(chapters, records).items():
+        found.setdefault(label.partition(".")[0], {})[printing(called)] = None
+    return {x: [*commands] for x, commands in sorted(found.items())}
+
+
+def printing(name: str) -> str:
+    """The command that prints the steps of a record, by the name that it is typed by."""
     problem, _, search = name.partition(":")
     return f"derive {PRINTED_BY.get(search, f'{search} {{}}').format(problem)}"
 

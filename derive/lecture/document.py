@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import partial, reduce
 from itertools import zip_longest
-from typing import Any
+from typing import Any, NamedTuple
 
+from ..check.form.hypotheses_checked import Verdict
 from ..language.read import FormulaError
 from ..language.templating import environment
 from ..record.record import Derivation, Equation
@@ -16,7 +17,7 @@ from ..views.figure.drawing import Scene, svg, tikz
 from ..views.html import escaped
 from ..views.language import LANGUAGES, Language
 from ..views.language import typeset as typeset_french
-from ..views.latex import DELIMITERS
+from ..views.latex import DELIMITERS, anchor
 from ..views.printing import typeset
 from ..views.printing.letters import definitions
 from ..views.printing.sentences import prose, spelt
@@ -29,14 +30,18 @@ from .figures import FIGURES, Figure
 from .lecture_text import RELATION, STATED, Block, Chapter, Entry, Formula, Given, Words
 from .lecture_text import tree as tree_of
 from .sheets import AXES, Claims
+from .ticked_steps import ticked
 
 TITLE = "Where do the equations of motion of solids come from?"
 WORDS = (
     *("Definition", "Lemma", "Proposition", "Theorem", "Remark", "Proof", "Calculation"),
     *("Exercise", "Solution", "Solutions", "Fig.", "Symbols", "Bibliography", "Steps"),
+    "The steps behind the ticks",
+    *("Projector", "The step before", "The next step", "Leave (Esc)", "now", "{n} of {all}"),
     "A name at the right begins with one of these; the command beside it prints the steps.",
 )
 """The words of the templates."""
+MOVE = "Move it: {title}"
 MARKED = re.compile(r"_([^_]+)_|@([a-z_]+)")
 """What is marked among words: emphasis, and the number of a block."""
 COMMAND = "derive "
@@ -113,17 +118,28 @@ Set = dict[str, Any]
 """What a template takes of a chapter, a block, an entry or a letter."""
 
 
+class Frame(NamedTuple):
+    """A page of its own behind a figure, in which what this shows moves: its title, its HTML."""
+
+    title: str
+    page: str
+
+
 @dataclass(frozen=True)
 class Lecture:
     """Chapters in a language; ``records``: those of the chapters, by the names that these give
     them; ``solutions``: where those of the exercises stand, at the end of each ``chapter``, in
-    one of their own at the ``end``, or nowhere (``none``)."""
+    one of their own at the ``end``, or nowhere (``none``); ``judgements``: the verdicts on the
+    steps that its ticks name, where they were tried; ``frames``: of a page, by the labels of the
+    figures."""
 
     chapters: Sequence[Chapter]
     language: Language
     records: Mapping[str, Derivation]
     front: Front = UNTITLED
     solutions: str = "chapter"
+    judgements: Mapping[str, Verdict] = field(default_factory=dict)
+    frames: Mapping[str, Frame] = field(default_factory=dict)
 
 
 def latex(lecture: Lecture) -> str:
@@ -134,12 +150,26 @@ def latex(lecture: Lecture) -> str:
 
 def page(lecture: Lecture) -> str:
     """The lecture as a page of HTML by itself, its formulas in MathML."""
-    text = environment("html").get_template("lecture.html.jinja").render(**_whole(lecture, PAGE))
+    whole, numbers = _whole(lecture, PAGE), numbers_of(lecture.chapters)
+    calculation = lecture.language.word("Calculation")
+    between: dict[str, list[str]] = {}
+    for k, c in enumerate(lecture.chapters, 1):
+        for block in (b for b in c.blocks if b.kind == "calculation"):
+            link = f'<a href="#calculation-{numbers[id(block)]}">{calculation}, § {k}</a>'
+            for label in dict.fromkeys(x for e in block.entries for x in e.labels):
+                between.setdefault(label, []).append(link)
+    told = lecture.chapters, lecture.records, lecture.language, lecture.judgements
+    whole |= {"steps": ticked(*told, between), "anchored": anchor}
+    whole["frames"] = {
+        label: (x, lecture.language.word(MOVE, title=x.title))
+        for label, x in lecture.frames.items()
+    }
+    text = environment("html").get_template("lecture.html.jinja").render(whole)
     text = CAPITAL.sub(r'<mi mathvariant="normal">\1</mi>', text)  # as LaTeX has them
     return CLOSED.sub(r'<span class="close">\1\2</span>', text)
 
 
-def _whole(x: Lecture, medium: Medium) -> dict[str, object]:
+def _whole(x: Lecture, medium: Medium) -> Set:
     """What both templates take."""
     chapters, language, front = x.chapters, x.language, x.front
     numbers = numbers_of(chapters)
@@ -178,7 +208,7 @@ def numbers_of(chapters: Sequence[Chapter]) -> dict[int, int]:
     together, and a solution has that of the exercise before it."""
     displays = (x for c in chapters for x in c.entries if x.label)
     found = {id(x): k for k, x in enumerate(displays, 1)}
-    counts = {"statement": 0, "exercise": 0, "figure": 0}
+    counts = {"statement": 0, "exercise": 0, "figure": 0, "calculation": 0}
     for block in (x for c in chapters for x in c.blocks):
         counter = COUNTED.get(block.kind, block.kind)
         if counter in counts:

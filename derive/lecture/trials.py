@@ -12,7 +12,7 @@ from ..language.derivatives import derivative
 from ..language.laurent import vanishes
 from ..language.show import show
 from ..language.tree import Tree, add, neg, replaced
-from ..record.record import ANY_GROUP, Derivation, Equation, Step
+from ..record.record import ANY_GROUP, Derivation, Equation, Hypothesis, Step
 from .lecture_text import Chapter, Entry, LectureError, rate_of
 
 
@@ -107,13 +107,25 @@ def _claim(
 ) -> Claim:
     reasons: dict[str, str] = {}
     for checker, step in company:
-        verdict = checker.check(replace(step, equations=(_quantified(equation, step),)))
+        supposed = (*step.hypotheses, *_implied(step))
+        claimed = replace(step, equations=(_quantified(equation, step),), hypotheses=supposed)
+        verdict = checker.check(claimed)
         if verdict.holds:
             return Claim(entry, equation, step)
         reasons.setdefault(step.label, f"{step.label}: {verdict.reason}")
     shown = f"{show(equation.lhs)} = {show(equation.rhs)}"
     where = f"{chapter.file}, line {entry.line}"
     raise LectureError("\n".join((f"{where}: {shown} does not hold", *reasons.values())))
+
+
+def _implied(step: Step) -> Iterator[Hypothesis]:
+    """What is not 0 where its product with a parameter is not, as the step supposes."""
+    for x in step.hypotheses:
+        if x.property == "nonzero" and isinstance(x.of, tuple) and x.of[0] == "mul":
+            head, *factors = x.of
+            for k, factor in enumerate(factors):
+                if isinstance(factor, tuple) and factor[0] == "par":
+                    yield replace(x, of=(head, *factors[:k], *factors[k + 1 :]))
 
 
 def _quantified(equation: Equation, step: Step) -> Equation:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cache, cached_property, lru_cache, partial
 from html import escape
@@ -15,7 +15,7 @@ from ..record.record import Derivation, Equation, Step
 from ..record.vocabulary import RULES
 from . import outline
 from .answer import ANGLE, EXPANDED, Summary, by_angle
-from .book import MOTION, REGULAR, BookPart, Passage, book, corrections
+from .book import MOTION, REGULAR, BookPart, Passage, book, corrections, steps
 from .figure.drawing import svg
 from .figure.scene import scene
 from .language import ENGLISH, Language, entries
@@ -85,6 +85,31 @@ def fragment(
     yield "".join(piece)
 
 
+def articles(
+    records: Sequence[Derivation],
+    behind: Mapping[str, str],
+    language: Language,
+    findings: Sequence[PaperFinding],
+) -> str:
+    """Some steps of records, each once, to stand in another page with the style sheet ``page.css``:
+    the labels of ``behind``, in its order, each with the markup that it has there at its end."""
+    parts = book(records, language)
+    numbers = dict.fromkeys(numbered(parts), "")  # another page counts its own equations
+    found = corrections(parts, findings, language)
+    home = {
+        s.label: (_PartFields(p, Notation(), language, numbers, found, {}, {}), s)
+        for p, s in steps(parts)
+    }
+
+    def equations(label: str) -> list[Fields]:
+        part, step = home[label]
+        return [*part.equations(step)]
+
+    shown = [(home[x][0].step(home[x][1], equations, behind), behind[x]) for x in behind]
+    given = {"steps": shown, "words": _words(language)}
+    return str(_template("articles").render(given))
+
+
 def answer(x: Summary, notation: Notation | None = None, *, alone: bool = True) -> str:
     """The equations of motion with what their letters are: a page, or, not ``alone``, what it has,
     to stand in another with the style sheet ``page.css``."""
@@ -145,17 +170,23 @@ def _shown(
         ),
         "regular": words(word(REGULAR), chosen),
         "paper": word(outline.PAPER),
-        "words": {
-            "from": outline.capitalised(word("from")),
-            "coordinates": outline.capitalised(word("coordinates")),
-            "names": word("Names"),
-            "paper": word("paper {numbers}", numbers="").strip(),
-            "copy": word("copy the LaTeX"),
-            "moving": word("In motion"),
-            "references": word("References"),
-        },
+        "words": _words(language),
         "references": [x[1:] for x in outline.references(records)],
         "parts": [p.fields(equations) for p in written],
+    }
+
+
+def _words(language: Language) -> dict[str, str]:
+    """The words of the templates."""
+    word = language.word
+    return {
+        "from": outline.capitalised(word("from")),
+        "coordinates": outline.capitalised(word("coordinates")),
+        "names": word("Names"),
+        "paper": word("paper {numbers}", numbers="").strip(),
+        "copy": word("copy the LaTeX"),
+        "moving": word("In motion"),
+        "references": word("References"),
     }
 
 
@@ -234,11 +265,14 @@ class _PartFields:
         titled = replace(drawn, title=outline.title(self.part.source, self.language))
         return {"figure": svg(titled), "caption": caption}
 
-    def step(self, step: Step, shown: Equations) -> Fields:
-        """The fields of a step, with the equations it rests on, or that write it in coordinates."""
+    def step(self, step: Step, shown: Equations, there: Collection[str] | None = None) -> Fields:
+        """The fields of a step, with the equations it rests on, or that write it in coordinates;
+        of steps that are ``there`` on a page, where not all are, no more than the link."""
 
         def unfolded(label: str) -> Fields:
-            return {"label": label, "id": anchor(label), "equations": shown(label)}
+            linked = there is None or label in there
+            equations = () if there and linked else shown(label)
+            return {"label": label, "id": linked and anchor(label), "equations": equations}
 
         return {
             "label": step.label,

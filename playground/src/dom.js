@@ -1,14 +1,6 @@
-/* An element with attributes, listeners and what is in it; texts are never markup. */
-export function make(tag, given = {}, ...inside) {
-  const made = document.createElement(tag);
-  for (const [name, v] of Object.entries(given)) {
-    if (typeof v === "function") made.addEventListener(name, v);
-    else if (v === true) made.setAttribute(name, "");
-    else if (v !== false && v !== undefined) made.setAttribute(name, v);
-  }
-  made.append(...inside);
-  return made;
-}
+import { dark, make } from "../../templates/html/projector.js";
+
+export { dark, make };
 
 export const the = (id) => document.getElementById(id);
 
@@ -50,14 +42,4 @@ export function kept(name, value) {
     localStorage.setItem(name, value);
   } catch { /* a browser that keeps nothing */ }
   return null;
-}
-
-const darkened = new Set();
-
-/* the colours of the dark, whatever the reader's are, or again the reader's */
-export function dark(always) {
-  for (const rule of [...document.styleSheets].flatMap((x) => [...x.cssRules])) {
-    if (rule.media?.mediaText.includes("dark")) darkened.add(rule);
-  }
-  for (const { media } of darkened) media.mediaText = always ? "all" : "(prefers-color-scheme: dark)";
 }

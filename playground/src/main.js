@@ -12,7 +12,7 @@ import { asked, spoken, tabbed } from "./link.js";
 import { meshed, stated } from "./made.js";
 import { opens } from "./opened.js";
 import { Motion, still } from "./see.js";
-import { Projector } from "./projector.js";
+import { Projector } from "../../templates/html/projector.js";
 import { Road } from "./road.js";
 import { Sentence } from "./sentence.js";
 import { Steps } from "./steps.js";

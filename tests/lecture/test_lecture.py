@@ -194,7 +194,9 @@ def test_a_number_of_the_note_is_that_of_a_step(records):
 def test_the_page_has_every_formula_of_the_text(lang):
     page = shown("page", lang).split('<section id="symbols">')
     text, whole = (
-        ElementTree.fromstring(re.sub("<!DOCTYPE[^>]*>|<meta[^>]*>", "", x))
+        ElementTree.fromstring(
+            re.sub("(?s)<!DOCTYPE[^>]*>|<meta[^>]*>|<script>.*?</script>", "", x)
+        )
         for x in (page[0] + "</main></body></html>", '<section id="symbols">'.join(page))
     )
     at = LANGUAGES.index(lang)

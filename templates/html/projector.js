@@ -1,5 +1,16 @@
 /* The walk in a room, a step a screen: what stood before it, why, and what is now; beside the steps of a body, that body. */
-import { dark, make } from "./dom.js";
+
+/* An element with attributes, listeners and what is in it; texts are never markup. */
+export function make(tag, given = {}, ...inside) {
+  const made = document.createElement(tag);
+  for (const [name, v] of Object.entries(given)) {
+    if (typeof v === "function") made.addEventListener(name, v);
+    else if (v === true) made.setAttribute(name, "");
+    else if (v !== false && v !== undefined) made.setAttribute(name, v);
+  }
+  made.append(...inside);
+  return made;
+}
 
 const BEFORE = 2, LEAST = 28, LARGEST = 56;
 const BY = { ArrowRight: 1, PageDown: 1, ArrowLeft: -1, PageUp: -1, Home: -Infinity, End: Infinity };
@@ -8,7 +19,7 @@ export class Projector {
   #at = 0;
   #steps = [];
 
-  /* place: what is shown; equations: the walk; answer: its last screen; words(): those of the page; passed(id): a step is on the
+  /* place: what is shown; equations: the walk; answer: its last screen, if it has one; words(): those of the page; passed(id): a step is on the
    * screen, or, "", the answer; beside(is): is the body? left(id): it has been left at a step */
   constructor(place, { equations, answer, words, passed, beside, left }) {
     Object.assign(this, { place, equations, answer, words, passed, beside, left });
@@ -21,6 +32,8 @@ export class Projector {
     leave.addEventListener("click", () => this.leave());
     addEventListener("resize", () => this.shown && this.#fit());
   }
+
+  get #last() { return this.#steps.length - (this.answer ? 0 : 1); }
 
   get shown() { return !this.place.hidden; }
 
@@ -37,7 +50,7 @@ export class Projector {
   enter(id, last = false) {
     this.#steps = [...this.equations.root.querySelectorAll("article")];
     if (!this.#steps.length) return;
-    this.#at = last ? this.#steps.length : Math.max(0, this.#steps.findIndex((x) => x.id === id));
+    this.#at = last ? this.#last : Math.max(0, this.#steps.findIndex((x) => x.id === id));
     this.place.hidden = false;
     document.body.classList.add("projecting");
     dark(true);
@@ -56,11 +69,11 @@ export class Projector {
 
   /* go on by so many steps, and back by fewer than none */
   go(by) {
-    this.#at = Math.max(0, Math.min(this.#steps.length, this.#at + by));
+    this.#at = Math.max(0, Math.min(this.#last, this.#at + by));
     const step = this.#steps[this.#at], words = this.words();
     const own = this.#steps.at(-1).closest("section"), now = (step ?? this.#steps.at(-1)).closest("section");
     const rule = step ? step.querySelector("h3 .rule").textContent : words.answer;
-    const where = words.stepof(this.#at + 1, this.#steps.length + 1);
+    const where = words.stepof(this.#at + 1, this.#last + 1);
     this.head.replaceChildren(make("h1", {}, rule), make("span", {}, where), make("span", { class: "from" }, step?.id ?? ""));
     this.told.replaceChildren(...(step ? told(step, this.equations.root, words) : []));
     this.screen.lastElementChild.hidden = Boolean(step);
@@ -88,7 +101,7 @@ export class Projector {
 /* what a screen shows of a step: the equations of the last steps that it uses, its sentence, its own */
 function told(step, root, words) {
   const order = [...root.querySelectorAll("article")].map((x) => x.id);
-  const used = [...step.querySelectorAll("details a")].map((x) => x.dataset.to).filter((x) => order.includes(x));
+  const used = [...step.querySelectorAll("details a")].map((x) => x.dataset.to ?? x.hash.slice(1)).filter((x) => order.includes(x));
   const before = [...new Set(used)].sort((a, b) => order.indexOf(a) - order.indexOf(b)).slice(-BEFORE);
   const copied = (of) => [...of.children].filter((x) => x.matches(".equations")).map(plain);
   return [
@@ -104,4 +117,14 @@ function plain(element) {
   for (const x of made.querySelectorAll("[id]")) x.removeAttribute("id");
   for (const x of made.querySelectorAll("button")) x.remove();
   return made;
+}
+
+const darkened = new Set();
+
+/* the colours of the dark, whatever the reader's are, or again the reader's */
+export function dark(always) {
+  for (const rule of [...document.styleSheets].flatMap((x) => [...x.cssRules])) {
+    if (rule.media?.mediaText.includes("dark")) darkened.add(rule);
+  }
+  for (const { media } of darkened) media.mediaText = always ? "all" : "(prefers-color-scheme: dark)";
 }
