@@ -374,18 +374,13 @@ def answer_mathml(
     entries are told stands among them, too, where a term of it is marked. Sums are gathered, but
     where a mark would be lost or numbers are rounded. In the plane A is told by its angle.
     """
-    by_its_angle, gathering = by_angle(d), _gathering(d)
-    reading, apart = Reading(d.problem), Reading(d.problem, marks or ())
-
-    def exactly(t: Tree) -> Tree:
-        return by_its_angle(apart.tree(t))
+    angle, apart, reading = by_angle(d), Reading(d.problem, marks or ()), Reading(d.problem)
 
     def turned(t: Tree) -> Tree:
-        return in_decimals(rounded(exactly(t), language), language)
+        return in_decimals(rounded(angle(apart.tree(t)), language), language)
 
     def gathered(t: Tree) -> Tree:
-        whole = by_its_angle(gathering.tree(reading.tree(t)))
-        return in_decimals(rounded(whole, language), language)
+        return in_decimals(angle(_gathering(d).tree(reading.tree(t))), language)
 
     marked = {y: x for t, x in (marks or {}).items() for y in (gathered(t), turned(t))}
     marked |= {neg(t): x for t, x in marked.items() if coefficient(t)[0] < 0}
@@ -400,7 +395,7 @@ def answer_mathml(
     def shown(e: Equation) -> Iterator[str]:
         planar = d.problem.get("group") in PLANE and e.lhs == "Ȧ"
         for x in ([*_of_angle(d)] if planar else []) or [e]:
-            near = rounded(exactly(x.rhs), language) != exactly(x.rhs)
+            near = rounded(x.rhs, language) != x.rhs
             head = typeset(turned(x.lhs)) + literal(r" \approx " if near else " = ")
             own, plain = ((head + typeset(f(x.rhs))).plain().mathml() for f in (gathered, turned))
             lost = {*ARROW.findall(plain)} - {*ARROW.findall(own)}

@@ -283,13 +283,6 @@ def test_every_view_has_them_so(double, form):
     assert ("its blocks are" in shown) is (form != "markdown")  # which lists no names
 
 
-def test_the_answer_of_a_page_has_them_so(double):
-    _, record = double
-    shown = "".join(x for _, x in answer_mathml(record, marks(arrows(record))))
-    assert "<mi>A</mi>" in shown
-    assert not re.search(r"<mn>3[34]</mn>", shown)
-
-
 def test_the_json_and_other_groups_stay(double):
     _, record = double
     assert '["entry", "A", 3, 3]' in re.sub(r"\s+", " ", render(record, "json"))
