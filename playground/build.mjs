@@ -52,14 +52,14 @@ const together = (...paths) => paths.map((x) => readFileSync(x, "utf8")).join(""
 const projector = join(html, "projector.css");
 writeFileSync(join(out, "page.css"), together(join(html, "page.css"), join(here, "src", "walk.css"), projector));
 writeFileSync(join(out, "play.css"), together(join(here, "src", "play.css"), projector));
-for (const file of ["data.json", "gallery.json", "motion.js"]) copyFileSync(join(stage, file), join(out, file));
+for (const file of ["data.json", "gallery.json", "lecture.en.html", "lecture.fr.html", "motion.js"]) copyFileSync(join(stage, file), join(out, file));
 cpSync(join(stage, "ready"), join(out, "ready"), { recursive: true });
 
 const all = files(out).map((x) => relative(out, x));
 const hash = createHash("sha256");
 for (const file of all) hash.update(file).update(readFileSync(join(out, file)));
 // too large, or too many, to be kept before they are asked for
-const LATE = all.filter((x) => ["sympy.tar.gz", "gallery.json"].includes(x) || x.startsWith("ready/"));
+const LATE = all.filter((x) => ["sympy.tar.gz", "gallery.json"].includes(x) || /^(ready\/|lecture\.)/.test(x));
 const kept = all.filter((x) => x !== "index.html" && !LATE.includes(x));
 writeFileSync(join(out, "keep.js"), readFileSync(join(here, "src", "keep.js"), "utf8")
   .replace("__LATE__", JSON.stringify(LATE))

@@ -25,6 +25,7 @@ from derive.algebra.groups import Group
 from derive.check.checker import verdicts
 from derive.code.languages import LANGUAGES
 from derive.code.options import ADDED, CHOICES, DEPENDENT, REPEATED
+from derive.command.cli import main as command
 from derive.command.showing import READY, ready_made
 from derive.language.limits import TABLES
 from derive.problem.motion_tables import of_points
@@ -327,6 +328,8 @@ def main(out: Path) -> None:
         "schema": schema(),
         "spoken": spoken(),
     }
+    for lang in SPOKEN:
+        command(["lecture", "--lang", lang, "--out", str(out / f"lecture.{lang}.html")])
     (out / "motion.js").write_text(drawing(), encoding="utf-8")
     (out / "gallery.json").write_text(json.dumps(pictures(said)))
     (out / "data.json").write_text(json.dumps(told, ensure_ascii=False, sort_keys=True))

@@ -21,8 +21,11 @@ TOKEN = re.compile(
 )
 
 LATEX = "a/b, sqrt(x), cos(x), theta, not LaTeX"
-INSTEAD = {**dict.fromkeys("\\{}$", LATEX), "²": "x^2", "·": "a*b", "√": "sqrt(x)"}
+INSTEAD = {**dict.fromkeys("\\{}$\b", LATEX), "²": "x^2", "·": "a*b", "√": "sqrt(x)"}
 """Other signs that people write → what stands for them here; letters: ``SPELT``."""
+
+EATEN = re.compile(r"(?<!\s)[\t\r](?:heta|au|imes|anh?|ho)")
+"""What text between double quotes makes of the first signs of LaTeX: tab and heta of \\theta."""
 
 
 class ExpressionError(ValueError):
@@ -87,6 +90,8 @@ def constants(tree: Tree) -> Iterator[Tree]:
 
 def _tokens(text: str) -> list[str]:
     found = []
+    if eaten := EATEN.search(text):
+        raise ExpressionError(f"{eaten[0]!r} is not part of an expression; write {LATEX}")
     for match in TOKEN.finditer(text.rstrip()):
         number, name, other = match.groups()
         if other is not None and other not in "+-*/^(),":
@@ -194,7 +199,8 @@ class _Parser:
             return self.written_out(token, depth)
         if token not in DERIVATIVES:
             known = ", ".join((*DERIVATIVES, *WRITTEN_OUT))
-            raise ExpressionError(f"unknown function {token[:20]!r}; known: {known}")
+            instead = f"write its expression itself, by {known}"
+            raise ExpressionError(f"unknown function {token[:20]!r}; {instead}")
         return ("fun", token, self.atom(depth + 1))
 
     def written_out(self, token: str, depth: int) -> Tree:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from decimal import Decimal
@@ -242,6 +243,11 @@ FIRST = ("kg", "m/s^2")
 
 def as_written(d: Derivation, e: Equation) -> Equation:
     """An equation as a person writes it, its right side gathered."""
+    return replace(e, rhs=_gathering(d).tree(e.rhs))
+
+
+def _gathering(d: Derivation) -> Gathering:
+    """What gathers sums of numbers, by the problem of a record."""
     name, about = str(d.problem.get("group")), d.problem.get("parameters") or {}
     units = {x: str((y or {}).get("unit", "")) for x, y in about.items()}
     ranked = sorted(about, key=lambda x: [not units[x].startswith(y) for y in FIRST])
@@ -253,8 +259,7 @@ def as_written(d: Derivation, e: Equation) -> Equation:
     if len(known) == 1:
         n = known[0][1].n
         sizes = {"A": n} if d.problem.get("n") == n else {}
-    gathering = Gathering({x: k for k, x in enumerate(ranked)}, sizes, name in PLANE)
-    return replace(e, rhs=gathering.tree(e.rhs))
+    return Gathering({x: k for k, x in enumerate(ranked)}, sizes, name in PLANE)
 
 
 def in_decimals(t: Tree, language: Language) -> Tree:
@@ -355,6 +360,10 @@ def rounded(t: Tree, language: Language) -> Tree:
     return mul(*parts) if t[0] == "mul" else (t[0], *parts)
 
 
+ARROW = re.compile('data-arrow="[0-9]+"')
+"""A mark as it is written."""
+
+
 def answer_mathml(
     d: Derivation, marks: Mapping[Tree, str] | None = None, language: Language = ENGLISH
 ) -> tuple[tuple[str, str], ...]:
@@ -362,20 +371,20 @@ def answer_mathml(
     its MathML, with ≈ where a long number in it is rounded.
 
     ``marks``: tree → the ``data-arrow`` that it has where it stands; the equation of a vector whose
-    entries are told stands among them, too, where a term of it is marked. In the plane A is told by
-    its angle.
+    entries are told stands among them, too, where a term of it is marked. Sums are gathered, but
+    where a mark would be lost or numbers are rounded. In the plane A is told by its angle.
     """
-    by_its_angle, reading = by_angle(d), Reading(d.problem, marks or ())
-
-    def exactly(t: Tree) -> Tree:
-        return by_its_angle(reading.tree(t))
+    angle, apart, reading = by_angle(d), Reading(d.problem, marks or ()), Reading(d.problem)
 
     def turned(t: Tree) -> Tree:
-        return rounded(exactly(t), language)
+        return in_decimals(rounded(angle(apart.tree(t)), language), language)
 
-    names, marked = latex_names(d) | ANGLE, {turned(t): x for t, x in (marks or {}).items()}
+    def gathered(t: Tree) -> Tree:
+        return in_decimals(angle(_gathering(d).tree(reading.tree(t))), language)
+
+    marked = {y: x for t, x in (marks or {}).items() for y in (gathered(t), turned(t))}
     marked |= {neg(t): x for t, x in marked.items() if coefficient(t)[0] < 0}
-    typeset = partial(of_tree, names=names, notation=Notation(), marks=marked)
+    typeset = partial(of_tree, names=latex_names(d) | ANGLE, notation=Notation(), marks=marked)
     told, steps = equations_of_motion(d), steps_of_answer(d)
 
     def marked_term(e: Equation) -> bool:
@@ -386,9 +395,11 @@ def answer_mathml(
     def shown(e: Equation) -> Iterator[str]:
         planar = d.problem.get("group") in PLANE and e.lhs == "Ȧ"
         for x in ([*_of_angle(d)] if planar else []) or [e]:
-            near = turned(x.rhs) != exactly(x.rhs)
-            relation = literal(r" \approx " if near else " = ")
-            yield (typeset(turned(x.lhs)) + relation + typeset(turned(x.rhs))).plain().mathml()
+            near = rounded(x.rhs, language) != x.rhs
+            head = typeset(turned(x.lhs)) + literal(r" \approx " if near else " = ")
+            own, plain = ((head + typeset(f(x.rhs))).plain().mathml() for f in (gathered, turned))
+            lost = {*ARROW.findall(plain)} - {*ARROW.findall(own)}
+            yield plain if near or lost else own
 
     listed = (*(e for e in steps[0].equations if e in told or marked_term(e)), *told)
     return tuple(

@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from ..language.show import show, signed
-from ..language.tree import Tree, names, neg, nodes
+from ..language.tree import Tree, names, neg, nodes, terms
 from ..record.record import Derivation, Equation, Step
 from .answer import ANGLE, by_angle, equations_of_motion, steps_of_answer
 from .figure.scene import SIZES, along, basis_of, shifts, turns
@@ -34,8 +34,8 @@ HELD = "acceleration of the points that keeps the volume"
 CARRIED = "acceleration of the points by their own motion"
 PLANAR = {"SO(2)": 2, "SE(2)": 3}
 """The factors that turn a body of the plane, and the size of their matrices."""
-MOST = 10
-"""So many have a colour."""
+MOST, FEW = 10, 3
+"""So many have a colour; a rate of so many terms is seen term by term, of more as a whole."""
 
 
 @dataclass(frozen=True)
@@ -193,7 +193,7 @@ def _terms(d: Derivation) -> Iterator[Arrow]:
                 for t in _signed(force):
                     yield _matrix(t, _cause_of_matrix(t[0]), "force", n)
             case ("entry", "ζ̇", k), rate if [-1, -1, k - 1] in turning:
-                for t in _signed(rate):
+                for t in _signed(rate) if len(terms(rate)) <= FEW else ():
                     if not RATES & {*names(t[0])}:
                         part = turning.index([-1, -1, k - 1])
                         yield Arrow(t, TURNED, "", (0, 0, t[0]), "torque", (part,))

@@ -71,7 +71,7 @@ export const placed = (lang, word, step = "", seen = {}) => `?lang=${lang}#${wor
 /* the tab that an address shows which names none: the motion, or the step that it names */
 export const tabbed = (step) => (step ? "walk" : "see");
 
-const TABS = ["walk", "see", "find", "take"];
+export const TABS = ["walk", "see", "find", "lecture", "take"];
 const short = (v) => String(Number(v.toPrecision(7)));
 
 /* what is seen: { tab, projected: "" or "answer", t, until, second: [name, ε], eye: [azimuth, elevation, zoom], within: true

@@ -8,7 +8,7 @@ import { Form } from "./form.js";
 import { Gallery, menu } from "./gallery.js";
 import { Places } from "./history.js";
 import { Found } from "./found.js";
-import { asked, spoken, tabbed } from "./link.js";
+import { TABS, asked, option, spoken, tabbed } from "./link.js";
 import { meshed, stated } from "./made.js";
 import { opens } from "./opened.js";
 import { Motion, still } from "./see.js";
@@ -84,17 +84,17 @@ const searches = new Found(the("find"), css, document.querySelector(".read .bar"
   },
 });
 const gallery = new Gallery(the("gallery"), { problems: data.problems, chosen: () => chosen(), choose: (now) => choose(now) });
-const tabs = new Tabs(["walk", "see", "find", "take"], (name) => {
+const tabs = new Tabs(TABS, (name) => {
   the("steps").parentElement.hidden = name !== "walk";
   const below = the(name).getBoundingClientRect().top - document.querySelector(".read .bar").getBoundingClientRect().bottom;
   if (below < 0 && name === "walk" && places.left) equations.back(places.left);
   else if (below < 0) scrollBy(0, below); // on a phone the page is moved
   places.shows(lang, chosen() ?? places.word, name);
   passed();
-  if (name === "see") see();
-  if (name === "find") find();
-  if (name === "take" && walked) take.opened();
+  opened();
 });
+/* what the tab that is seen makes of the walk that stands */
+const opened = () => ({ see, find, lecture, take: () => walked && take.opened() })[tabs.now]?.();
 
 async function unzipped(file) {
   const found = await fetch(file);
@@ -122,6 +122,7 @@ let timer = 0, notice = "", aim = null;
 let told = "";
 
 const problem_name = () => text.text.match(/^\s*name\s*=\s*"([A-Za-z]\w{0,60})"/m)?.[1] ?? "problem";
+const file = () => chosen() ?? `${problem_name()}.toml`; // as a command has it
 const chosen = () => names.find((x) => ready(x).text === text.text);
 const address = (id) => `#${chosen() ?? places.word}/${encodeURIComponent(id)}`;
 
@@ -166,7 +167,7 @@ function answer(equations, vectors = []) {
 function athome(why) {
   answer([]);
   if (tabs.now !== "walk") tabs.show("walk");
-  equations.clear(make("p", {}, why), make("pre", {}, `${words.install}\nderive walk ${chosen() ?? `${problem_name()}.toml`}`));
+  equations.clear(make("p", {}, why), make("pre", {}, `${words.install}\nderive walk ${file()}`));
   say("");
 }
 
@@ -183,9 +184,7 @@ async function derive() {
   if (wanted) {
     wanted = false;
     await check();
-  } else if (tabs.now === "see") await see();
-  else if (tabs.now === "find") await find();
-  else if (tabs.now === "take") take.opened();
+  } else await opened();
 }
 
 async function walk() {
@@ -279,7 +278,15 @@ async function see() {
 }
 
 async function find() {
-  if (walked && !running && !timer) await searches.of(walked, words, chosen() ?? `${problem_name()}.toml`);
+  if (walked && !running && !timer) await searches.of(walked, words, file());
+}
+
+/* the course in the language of the page, fetched when it is seen, and the command for a chapter on the problem */
+function lecture() {
+  const page = `lecture.${lang}.html`, [about, frame] = the("lecture").children;
+  about.firstElementChild.href = page;
+  about.lastElementChild.textContent = `derive lecture ${file()} --out ${problem_name()}.html${option(lang)}`;
+  if (frame.getAttribute("src") !== page) frame.setAttribute("src", page);
 }
 
 /* the files of a command, { files: name → text, start: name → number }, with what else they are in a zip, or what it { refused }; behind a walk that runs */

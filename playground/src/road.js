@@ -32,7 +32,8 @@ export class Road {
   /* the step that is read: the stations that are behind it, of all the steps in their order; or is it the code? */
   here(id, order, code) {
     const at = order.indexOf(id);
-    const last = this.#buttons.findLast((x) => (code ? !x.dataset.to : x.dataset.to && order.indexOf(x.dataset.to) <= at));
+    const place = (x) => order.indexOf(x.dataset.to), passed = (x) => (code ? !x.dataset.to : x.dataset.to && place(x) <= at);
+    const last = this.#buttons.filter(passed).sort((x, y) => place(x) - place(y)).at(-1);
     for (const x of this.#buttons) x.setAttribute("aria-current", x === last ? "step" : "false");
   }
 

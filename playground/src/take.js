@@ -33,6 +33,7 @@ export class Take {
       this.row(() => `notes FILE${speaks} --out out/NAME.html`, this.saves(words.page, ".html")),
       this.row(() => "walk FILE --format json --out out/NAME.json", this.saves(words.record, ".json")),
       make("div", { class: "row" }, this.own(() => `${words.notebook} .ipynb`, ".ipynb", (x) => notebook(x.name, x.text, x.title)), make("span", { class: "told" }, words.runs)),
+      make("h2", {}, words.figure), this.row(() => `simulate FILE --out out/NAME.npz && derive plot out/NAME.npz${speaks}`),
     );
     this.place.querySelector("details").addEventListener("toggle", () => this.weigh());
     this.told();

@@ -285,6 +285,7 @@ def test_a_bar_in_the_plane_has_forces_in_it_and_a_torque_out_of_it():
         force += pull
         torque += r[0] * pull[1] - r[1] * pull[0]
     assert np.allclose(told["whole torque"], [0, 0, torque])
+    assert "angular acceleration by the forces" not in told  # of its six terms
     assert np.allclose(told["acceleration by the forces"], [*force / (2 * p["m"]), 0])
     assert np.allclose(told["acceleration of gravity"], [*(A.T @ [0, -p["g"]]), 0])
     assert np.allclose(told["angular velocity in the body"], [0, 0, 0.7])

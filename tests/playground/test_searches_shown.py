@@ -1,4 +1,5 @@
-"""What is searched of the equations, in a tab of the playground: as the commands say it."""
+"""What is searched of the equations, in a tab of the playground: as the commands say it; in another
+the lecture."""
 
 import re
 
@@ -55,3 +56,16 @@ def test_what_is_refused_is_one_line_and_in_the_other_language(fresh, site):
     assert fresh.inner_text("[data-search=equilibria]") == "Équilibres"
     assert steps_found(fresh, "integrals") == []
     assert fresh.evaluate(f"{PLACE}.querySelector('.fault').textContent").startswith("derive: ")
+
+
+def test_the_lecture_is_fetched_in_the_language_when_it_is_seen(fresh, site):
+    visit(fresh, f"{site}?lang=fr#top&tab=walk", "top")
+    assert not [x for x in fresh.asked if "lecture" in x]
+    fresh.click("#tab-lecture")
+    heading = fresh.frame_locator("#lecture iframe").locator("h1")
+    assert heading.inner_text().startswith("D’où viennent")
+    assert "derive lecture top --out top.html --lang fr" in fresh.inner_text("#lecture p")
+    assert violations(fresh, "#lecture") == []
+    fresh.click("[data-lang=en]")
+    fresh.wait_for_selector("iframe[src='lecture.en.html']")
+    assert "tab=lecture" in fresh.url
