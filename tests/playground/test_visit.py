@@ -149,7 +149,7 @@ def in_a_room(page):
     assert min(page.evaluate(HEIGHTS)) >= 28
     assert page.evaluate("getComputedStyle(document.body).backgroundColor") == "rgb(0, 0, 0)"
     page.wait_for_selector("iframe[data-moved]")  # the body beside its own steps
-    assert page.locator("iframe").bounding_box()["width"] > 400
+    assert page.locator("iframe[data-moved]").bounding_box()["width"] > 400
     page.keyboard.press("Home")
     assert not page.is_visible("iframe")
     page.keyboard.press("ArrowRight")
