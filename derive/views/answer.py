@@ -264,12 +264,23 @@ def _gathering(d: Derivation) -> Gathering:
 
 def in_decimals(t: Tree, language: Language) -> Tree:
     """A tree with 9.81 for 981/100."""
-    if isinstance(t, Fraction) and decimal(t):
-        shown = language.decimal(abs(float(t)))
-        return neg(shown) if t < 0 else shown
+
+    def shown(x: int | Fraction) -> Tree:
+        if not decimal(x):
+            return x
+        size = language.decimal(abs(float(x)))
+        return neg(size) if x < 0 else size
+
+    return _with_numbers(t, shown)
+
+
+def _with_numbers(t: Tree, shown: Callable[[int | Fraction], Tree]) -> Tree:
+    """A tree with its numbers as they are shown."""
+    if isinstance(t, (int, Fraction)):
+        return shown(t)
     if not isinstance(t, tuple) or t[0] == "par":
         return t
-    parts = [in_decimals(x, language) for x in t[1:]]
+    parts = [_with_numbers(x, shown) for x in t[1:]]
     return mul(*parts) if t[0] == "mul" else (t[0], *parts)
 
 
@@ -347,17 +358,18 @@ LONG = 10**9
 
 def rounded(t: Tree, language: Language) -> Tree:
     """A tree with its long numbers, as those of a mesh, to five digits."""
-    if isinstance(t, (int, Fraction)) and max(abs(t.numerator), t.denominator) > LONG:
-        quotient = Decimal(abs(t.numerator)) / Decimal(t.denominator)  # beyond floats, too
+
+    def shown(x: int | Fraction) -> Tree:
+        if max(abs(x.numerator), x.denominator) <= LONG:
+            return x
+        quotient = Decimal(abs(x.numerator)) / Decimal(x.denominator)  # beyond floats, too
         digits, _, power = f"{quotient:.4e}".partition("e")
         near = -4 < int(power) < 5
         size = language.decimal(float(f"{digits}e{power if near else 0}"))
         size += "" if near else f"·{show(('pow', 10, int(power)))}"
-        return neg(size) if t < 0 else size
-    if not isinstance(t, tuple) or t[0] == "par":
-        return t
-    parts = [rounded(x, language) for x in t[1:]]
-    return mul(*parts) if t[0] == "mul" else (t[0], *parts)
+        return neg(size) if x < 0 else size
+
+    return _with_numbers(t, shown)
 
 
 ARROW = re.compile('data-arrow="[0-9]+"')

@@ -78,17 +78,17 @@ class Gathering:
         """Factors with their powers as a monomial, what is in them gathered."""
         return _product(_power(y, j * k) for x, k in factors for y, j in _factors(self.tree(x)))
 
-    def _contracted(self, told: list[Monomial]) -> list[Monomial]:
+    def _contracted(self, monomials: list[Monomial]) -> list[Monomial]:
         """Monomials with (Āv)_j for the sum of all A_ij v_i, and 1 for the squares of cos and
         sin."""
         first, second = (("entry", "A", 1, j) for j in (1, 2))
-        for c, p in [x for x in told if self.plane and x[1][second] == 2]:
+        for c, p in [x for x in monomials if self.plane and x[1][second] == 2]:
             rest = less(p, Powers({second: 2}))
-            if (other := (c, Powers({**rest, first: 2}))) in told:
-                told = [(c, rest) if x == other else x for x in told if x != (c, p)]
+            if (other := (c, Powers({**rest, first: 2}))) in monomials:
+                monomials = [(c, rest) if x == other else x for x in monomials if x != (c, p)]
         rows: dict[tuple[Any, ...], dict[int, Monomial]] = {}
         turned: dict[tuple[Any, ...], Monomial] = {}
-        for c, p in told:
+        for c, p in monomials:
             for a in (x for x, k in p.items() if k == 1 and self._turns(x)):
                 _, block, i, j = a
                 for v in (x for x, k in p.items() if k == 1 and self._of_space(x, i)):
@@ -99,12 +99,12 @@ class Gathering:
                     turned[key] = c, Powers({**rest, new: 1})
         for key, members in rows.items():
             whole = len(members) == self.sizes[key[0]]
-            there = [x for x in told if x in members.values()] if whole else []
+            there = [x for x in monomials if x in members.values()] if whole else []
             if whole and len(there) == len(members):
                 one: dict[int, list[Monomial]] = {id(x): [] for x in there}
                 one[id(there[0])] = [turned[key]]
-                told = [y for x in told for y in one.get(id(x), [x])]
-        return told
+                monomials = [y for x in monomials for y in one.get(id(x), [x])]
+        return monomials
 
     def _of_space(self, x: Tree, i: int) -> bool:
         """Is it entry i of a vector with as many entries as A has rows, in a product a block?"""
@@ -131,30 +131,35 @@ class Gathering:
 
     # Monomials as a sum.
 
-    def _written(self, told: Sequence[Monomial]) -> Tree:
+    def _written(self, monomials: Sequence[Monomial]) -> Tree:
         """The sum of monomials, what they share apart; else what most of them share."""
-        while len(told) > 1:
-            shared = shared_powers([p for _, p in told])
-            if any(k < 0 for _, p in told for k in less(p, shared).values()):
+        while len(monomials) > 1:
+            shared = shared_powers([p for _, p in monomials])
+            if any(k < 0 for _, p in monomials for k in less(p, shared).values()):
                 shared = +shared  # no fraction in a fraction
-            content = _content([c for c, _ in told], bool(shared))
+            content = _content([c for c, _ in monomials], bool(shared))
             if shared or content != 1:
-                inner = self._written([(c / content, less(p, shared)) for c, p in told])
+                inner = self._written([(c / content, less(p, shared)) for c, p in monomials])
                 return self._term(*_product([(content, shared), as_monomial(inner)]))
-            if (factor := _most_shared([p for _, p in told])) is None:
-                return self._sum(told)
-            has = [p[factor[0]] * factor[1] > 0 for _, p in told]
-            at, group = has.index(True), [x for x, y in zip(told, has, strict=True) if y]
-            others = [x for x, y in zip(told, has, strict=True) if not y]
-            told = [*others[:at], as_monomial(self._written(group)), *others[at:]]
-        return self._term(*told[0]) if told else 0
+            if (factor := _most_shared([p for _, p in monomials])) is None:
+                return self._sum(monomials)
+            has = [p[factor[0]] * factor[1] > 0 for _, p in monomials]
+            at, group = has.index(True), [x for x, y in zip(monomials, has, strict=True) if y]
+            others = [x for x, y in zip(monomials, has, strict=True) if not y]
+            monomials = [*others[:at], as_monomial(self._written(group)), *others[at:]]
+        return self._term(*monomials[0]) if monomials else 0
 
-    def _sum(self, told: Sequence[Monomial]) -> Tree:
+    def _sum(self, monomials: Sequence[Monomial]) -> Tree:
         """Monomials that share nothing, one that is added first; those of parameters in order."""
-        if all(map(of_parameters, (p for _, p in told))):
-            told = sorted(told, key=lambda x: min(map(self._rank, x[1]), default=(9, 0)))
-        first = next((k for k, (c, _) in enumerate(told) if c > 0), 0)
-        return add(*(self._term(*x) for x in (told[first], *told[:first], *told[first + 1 :])))
+        if all(map(of_parameters, (p for _, p in monomials))):
+            monomials = sorted(monomials, key=lambda x: min(map(self._rank, x[1]), default=(9, 0)))
+        first = next((k for k, (c, _) in enumerate(monomials) if c > 0), 0)
+        return add(
+            *(
+                self._term(*x)
+                for x in (monomials[first], *monomials[:first], *monomials[first + 1 :])
+            )
+        )
 
     def _term(self, c: Fraction, p: Powers) -> Tree:
         """A monomial as a product, or as a fraction whose line is below all of it."""
@@ -237,10 +242,10 @@ def _product(factors: Iterable[Monomial]) -> Monomial:
     return c, less(found, Powers())
 
 
-def _merged(told: Iterable[Monomial]) -> list[Monomial]:
+def _merged(monomials: Iterable[Monomial]) -> list[Monomial]:
     """Monomials of different powers, none zero."""
     found: dict[object, Monomial] = {}
-    for c, p in told:
+    for c, p in monomials:
         key = frozenset(p.items())
         found[key] = (found[key][0] + c if key in found else c), p
     return [x for x in found.values() if x[0]]

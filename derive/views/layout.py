@@ -172,11 +172,11 @@ def unfolded(t: Tree) -> Tree:
 def factored(t: Tree) -> Tree:
     """A sum of products of parameters with the factors of all of them before it; any other tree as
     it is."""
-    told = [*map(as_monomial, terms(t))]
-    powers = [p for _, p in told]
+    monomials = [*map(as_monomial, terms(t))]
+    powers = [p for _, p in monomials]
     common = shared_powers(powers)
-    whole = all(c == 1 and of_parameters(p) and min(p.values()) > 0 for c, p in told if p)
-    if len(told) < 2 or not common or not whole:
+    whole = all(c == 1 and of_parameters(p) and min(p.values()) > 0 for c, p in monomials if p)
+    if len(monomials) < 2 or not common or not whole:
         return t
     return mul(_product(common), add(*(_product(less(p, common)) for p in powers)))
 
